@@ -64,7 +64,9 @@ pub(crate) fn check<T: Real>(
     equations.phi(t, q, phi);
     let mut worst: Option<(usize, T)> = None;
     for &row in info.redundant {
-        let excess = vectors::magnitude(phi, row) / allowed(info, row, length);
+        let (violation, allowed) = (vectors::magnitude(phi, row), allowed(info, row, length));
+        // where everything is at the origin both are 0
+        let excess = if violation == T::default() { violation } else { violation / allowed };
         let is_kept = excess <= T::from_f64(1.0);
         if !is_kept && worst.is_none_or(|(_, most)| excess > most) {
             worst = Some((row, excess));

@@ -10,6 +10,9 @@ use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
 /// More rows than this are no table that somebody looks up.
 const MOST_ROWS: usize = 100_000;
 
+/// Lines that begin so are left out.
+const COMMENT: u8 = b'#';
+
 /// Gives the text of a file, or why there is none.
 pub type Read<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
 
@@ -68,15 +71,23 @@ struct Table {
 impl Table {
     /// The table that begins here, and the number of tokens up to the name of its file.
     fn at(tokens: &[TokenTree]) -> Option<(Self, usize)> {
+        // `table gas(angle)`, or `table gas[i](angle)` in a loop
+        let (word, name, rest) = match tokens {
+            [TokenTree::Ident(word), TokenTree::Ident(name), TokenTree::Group(index), rest @ ..]
+                if index.delimiter() == Delimiter::Bracket =>
+            {
+                (word, name, rest)
+            }
+            [TokenTree::Ident(word), TokenTree::Ident(name), rest @ ..] => (word, name, rest),
+            _ => return None,
+        };
         let [
-            TokenTree::Ident(word),
-            TokenTree::Ident(name),
             TokenTree::Group(arguments),
             TokenTree::Punct(equals),
             TokenTree::Ident(from),
             TokenTree::Literal(file),
-            ..,
-        ] = tokens
+            behind @ ..,
+        ] = rest
         else {
             return None;
         };
@@ -94,7 +105,7 @@ impl Table {
             file: text.value(),
             span: file.span(),
         };
-        Some((table, 6))
+        Some((table, tokens.len() - behind.len()))
     }
 
     /// `(30 [deg], 2 [bar]), …`
@@ -102,24 +113,29 @@ impl Table {
         let Self { name, file, span, .. } = self;
         let text = read(file).map_err(|reason| {
             Diagnostic::new(*span, format!("`{file}` cannot be read: {reason}"))
-                .help("the file stands beside the declaration, or in a folder there")
+                .help("a table's file stands beside the declaration, or in a folder there")
         })?;
-        let mut lines = text.trim_start_matches('\u{feff}').lines().filter(|line| !line.trim().is_empty());
-        let header = lines.next().ok_or_else(|| self.without("a line of names"))?;
-        let separator = [';', '\t'].into_iter().find(|it| header.contains(*it)).unwrap_or(',');
-        let names: Vec<Column> = header.split(separator).map(Column::of).collect();
+        let text = text.trim_start_matches('\u{feff}');
+        let first = text.lines().find(|line| !line.starts_with(COMMENT as char)).unwrap_or_default();
+        let separator = [b';', b'\t'].into_iter().find(|it| first.contains(*it as char)).unwrap_or(b',');
+        let mut rows = csv::ReaderBuilder::new();
+        rows.delimiter(separator).comment(Some(COMMENT)).trim(csv::Trim::All);
+        let mut rows = rows.from_reader(text.as_bytes());
+        let header = rows.headers().map_err(|error| self.unreadable(&error))?;
+        let names: Vec<Column> = header.iter().map(Column::of).collect();
         let wanted = self.arguments.iter().chain([name]);
         let columns: Vec<usize> =
             wanted.map(|wanted| self.column(&wanted.to_string(), &names)).collect::<Result<_, _>>()?;
         let mut points = TokenStream::new();
-        for (at, line) in lines.enumerate() {
+        for (at, row) in rows.records().enumerate() {
+            let row = row.map_err(|error| self.unreadable(&error))?;
             if at >= MOST_ROWS {
-                return Err(self.without(&format!("at most {MOST_ROWS} rows")));
+                let message = format!("`{file}` has more than {MOST_ROWS} rows");
+                return Err(Diagnostic::new(*span, message).help("give fewer points"));
             }
-            let cells: Vec<&str> = line.split(separator).collect();
             let mut numbers = TokenStream::new();
             for &column in &columns {
-                let cell = cells.get(column).map_or("", |cell| cell.trim().trim_matches('"'));
+                let cell = row.get(column).unwrap_or_default();
                 let Some(number) = number(cell, separator) else {
                     let (of, row) = (&names[column].name, at + 1);
                     let message =
@@ -133,15 +149,29 @@ impl Table {
         Ok(points)
     }
 
-    fn without(&self, what: &str) -> Diagnostic {
-        Diagnostic::new(self.span, format!("`{}` has not {what}", self.file)).help(
+    /// The error for rows that are no table.
+    fn unreadable(&self, error: &csv::Error) -> Diagnostic {
+        let reason = match error.kind() {
+            csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+                let line = pos.as_ref().map_or(0, csv::Position::line);
+                format!("line {line} has {len} cells and the first one {expected_len}")
+            }
+            _ => error.to_string(),
+        };
+        Diagnostic::new(self.span, format!("`{}` is no table: {reason}", self.file)).help(
             "a table has a line of names with units, `angle [deg], gas [bar]`, and a row for each point",
         )
     }
 
     fn column(&self, wanted: &str, names: &[Column]) -> Result<usize, Diagnostic> {
-        if let Some(at) = names.iter().position(|column| column.name == wanted) {
-            return Ok(at);
+        let mut found = names.iter().enumerate().filter(|(_, column)| column.name == wanted);
+        match (found.next(), found.next()) {
+            (Some((at, _)), None) => return Ok(at),
+            (Some(_), Some(_)) => {
+                let message = format!("`{}` has two columns `{wanted}`", self.file);
+                return Err(Diagnostic::new(self.span, message).help("call one of them another name"));
+            }
+            (None, _) => {}
         }
         let known: Vec<&str> = names.iter().map(|column| column.name.as_str()).collect();
         let help = match nearest(wanted, known.iter().copied()) {
@@ -196,18 +226,17 @@ struct Column {
 impl Column {
     /// `angle [deg]`
     fn of(header: &str) -> Self {
-        let header = header.trim().trim_matches('"');
-        let (name, unit) = match header.split_once('[') {
-            Some((name, unit)) => (name, unit.trim_end().trim_end_matches(']')),
-            None => (header, ""),
-        };
+        let with_unit = header.strip_suffix(']').and_then(|header| header.split_once('['));
+        let (name, unit) = with_unit.unwrap_or((header, ""));
+        // as tables are often written
+        let unit = if unit.trim() == "°" { "deg" } else { unit };
         Self { name: name.trim().to_owned(), unit: unit.trim().to_owned() }
     }
 }
 
-/// A finite number; with a comma where a semicolon separates columns.
-fn number(cell: &str, separator: char) -> Option<f64> {
-    let text = if separator == ';' { cell.replace(',', ".") } else { cell.to_owned() };
+/// A finite number; with a decimal comma where no comma separates columns.
+fn number(cell: &str, separator: u8) -> Option<f64> {
+    let text = if separator == b',' { cell.to_owned() } else { cell.replace(',', ".") };
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 

@@ -86,4 +86,4 @@ pub use program::{Instruction, Operand, Operation, Operations, Program};
 pub use repetition::{Block, Repetition, Source};
 pub use rounding::Rounded;
 pub use sin_cos::SinCos;
-pub use spline::{Beyond, Grid, Interpolation, Outside, Segment, Spline, SplineId, Surface};
+pub use spline::{Bends, Beyond, Grid, Interpolation, Outside, Segment, Spline, SplineId, Surface};

@@ -124,6 +124,8 @@ fn periodic_surfaces_close() {
     let steps = Graph::new(&grid(), Step, [Hold; 2]);
     assert_eq!(steps.at(0.5, 0.69), [1.5, 0.0, 0.0]);
     assert_eq!(steps.at(1.0, 0.7), [-3.0, 0.0, 0.0]);
+    // the last line of each argument holds as well
+    assert_eq!([steps.at(2.5, 0.6)[0], steps.at(3.0, 9.0)[0], steps.at(0.5, 2.0)[0]], [0.5, 1.0, -1.0]);
 }
 
 #[test]

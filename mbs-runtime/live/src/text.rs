@@ -4,9 +4,9 @@
 
 #[cfg(not(target_family = "wasm"))]
 use std::fmt::Display;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 #[cfg(not(target_family = "wasm"))]
 use std::sync::mpsc::{self, RecvTimeoutError};
 #[cfg(not(target_family = "wasm"))]
@@ -413,15 +413,20 @@ fn make<T>(
 /// The text of a file in a folder, or why there is none.
 fn beside(folder: Option<&Path>, name: &str) -> Result<String, String> {
     let Some(folder) = folder else { return Err("this text has no folder".into()) };
-    let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
-    if !is_inside {
-        return Err("it leads out of the folder".into());
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let found =
+        fs::canonicalize(folder).and_then(|folder| Ok((fs::canonicalize(folder.join(name))?, folder)));
+    let (path, folder) = found.map_err(|error| error.to_string())?;
+    if !path.starts_with(folder) {
+        return Err("it is not in that folder".into());
     }
-    let path = folder.join(name);
+    if !path.is_file() {
+        return Err("it is no file".into());
+    }
     let mut text = String::new();
     let read = File::open(&path).and_then(|file| file.take(LONGEST as u64 + 1).read_to_string(&mut text));
     match read {
-        Err(error) => Err(format!("{error} ({})", path.display())),
+        Err(error) => Err(error.to_string()),
         Ok(_) if text.len() > LONGEST => Err(format!("it has more than {LONGEST} bytes")),
         Ok(_) => Ok(text),
     }

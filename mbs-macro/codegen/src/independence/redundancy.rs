@@ -7,8 +7,8 @@ use super::Samples;
 use super::assembly::{Assembly, Closing};
 use super::echelon::row_echelon;
 use super::manifold::Manifold;
-use super::rows::Rows;
-use super::words::{Part, unit};
+use super::rows::{Dependent, Rows};
+use super::words::{Part, repeats, unit};
 use crate::diagnostics::{Diagnostic, joined};
 use crate::model::Model;
 
@@ -34,6 +34,7 @@ pub fn choose(
             if redundant.is_empty() {
                 return Err(nothing_redundant(model, statement));
             }
+            no_rates(model, manifold)?;
             let rows = Rows::without(count, redundant);
             return fits_in_time(model, assembly, &rows, manifold).map(|()| rows);
         }
@@ -56,6 +57,24 @@ pub fn choose(
         _ if manifold.is_some() => Ok(Rows::without(count, Vec::new())),
         _ => Ok(rows),
     }
+}
+
+/// What repeats others is watched by its Φ, which an equation between rates has not.
+fn no_rates(model: &Model, manifold: &Manifold) -> Result<(), Diagnostic> {
+    let is_rate = |row: &usize| model.constraints[*row].rate.is_some();
+    let of_rates = |(row, others): &&Dependent| is_rate(row) || others.iter().any(is_rate);
+    let Some((row, others)) = manifold.redundant().iter().find(of_rates) else { return Ok(()) };
+    let part = Part::of(model, [*row]);
+    let others = Part::of(model, others.iter().copied());
+    let message = match part.as_slice() {
+        [part] => repeats(part, &others),
+        _ => format!("{} and others are not independent", joined(&part)),
+    };
+    Err(Diagnostic::new(
+        model.constraints[*row].span,
+        format!("{message}, and nothing holds both at one rate"),
+    )
+    .help("of equations between rates none may be spare: remove one of them"))
 }
 
 /// Redundant drives keep in step with the others: what closes at t = 0 also

@@ -35,7 +35,8 @@ impl Resolver<'_> {
         let of_bodies = forces.into_iter().filter(|(at, _)| !self.coordinates[*at].is_own());
         let of_bodies: Vec<(usize, Expr)> = of_bodies.collect();
         if of_bodies.is_empty() {
-            let error = without_force(name, role);
+            let is_in_pieces = role == EnergyRole::Potential && self.depends_on_coordinates(value);
+            let error = without_force(name, role, is_in_pieces);
             self.errors.push(error);
             return;
         }
@@ -49,11 +50,14 @@ impl Resolver<'_> {
     }
 }
 
-fn without_force(name: &Ident, role: EnergyRole) -> Diagnostic {
+fn without_force(name: &Ident, role: EnergyRole, is_in_pieces: bool) -> Diagnostic {
     let (of, example) = match role {
         EnergyRole::Potential => ("coordinate", "potential magnet = k/x;"),
         EnergyRole::Dissipation => ("rate of a coordinate", "dissipation oil = c*der(x)^2/2;"),
     };
-    let message = format!("`{name}` exerts no force: no {of} is left in it");
+    let message = match is_in_pieces {
+        true => format!("`{name}` exerts no force: it is constant from piece to piece, and so has no slope"),
+        false => format!("`{name}` exerts no force: no {of} is left in it"),
+    };
     Diagnostic::new(name.span(), message).help(format!("its slopes are the forces, as in `{example}`"))
 }

@@ -11,7 +11,7 @@ use super::known::{Energies, Source, Typed};
 use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
 use crate::mechanics::{kinetic, norm, potential};
-use crate::syntax::{Attachment, Formula, FormulaKind};
+use crate::syntax::{Attachment, EnergyRole, Formula, FormulaKind};
 
 /// The functions of this file.
 pub const MEASURES: &[&str] = &[
@@ -112,6 +112,12 @@ impl Scope<'_> {
             }
             // broken elsewhere, or a vector
             None if source.work.is_empty() => Ok(Typed { expr: self.arena.zero(), dimension: None }),
+            None if EnergyRole::WORDS.contains(&source.word) => {
+                let message =
+                    format!("`{text}` is a {}, with a force along every coordinate in it", source.word);
+                Err(Diagnostic::new(asked.span(), message)
+                    .help(format!("what it delivers is `power({text})`")))
+            }
             None => Err(Diagnostic::new(asked.span(), format!("`{text}` is a vector"))
                 .help("give its components names with `let`, and record those")),
         }

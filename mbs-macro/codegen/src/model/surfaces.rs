@@ -30,7 +30,7 @@ impl Scope<'_> {
         let numbers: Vec<[f64; 3]> =
             x.into_iter().zip(y).zip(values).map(|((x, y), value)| [x, y, value]).collect();
         let grid = errors.take(grid(name, points, &numbers))?;
-        let (grid, outside) = errors.take(closed(name, grid, outside))?;
+        let (grid, outside) = errors.take(closed(table, grid, outside))?;
         if table.interpolation == Interpolation::Monotone {
             let message = format!("`{name}` is a table of two arguments, of which none is `monotone`");
             errors.push(Diagnostic::new(name.span(), message).help("take `linear`, `cubic` or `step`"));
@@ -129,21 +129,22 @@ fn incomplete(name: &Ident, found: usize, expected: usize) -> String {
 }
 
 /// What is outside of a grid, which ends with its first line again along an argument that is periodic.
-fn closed(name: &Ident, mut grid: Grid, beyond: &[Beyond; 2]) -> Result<(Grid, [Outside; 2]), Diagnostic> {
+fn closed(table: &Table, mut grid: Grid, beyond: &[Beyond; 2]) -> Result<(Grid, [Outside; 2]), Diagnostic> {
     let mut outside = [Outside::Hold; 2];
     for (axis, (beyond, outside)) in beyond.iter().zip(&mut outside).enumerate() {
         *outside = match beyond {
             Beyond::Hold => Outside::Hold,
             Beyond::Extend => Outside::Extend,
             Beyond::Refuse => Outside::Refuse,
-            Beyond::Periodic => Outside::Periodic(close(name, &mut grid, axis)?),
+            Beyond::Periodic => Outside::Periodic(close(table, &mut grid, axis)?),
         };
     }
     Ok((grid, outside))
 }
 
 /// The period along an argument, whose last line, which is the first one again, is taken away.
-fn close(name: &Ident, grid: &mut Grid, axis: usize) -> Result<f64, Diagnostic> {
+fn close(table: &Table, grid: &mut Grid, axis: usize) -> Result<f64, Diagnostic> {
+    let name = &table.name;
     let (along, which) = if axis == 0 { (&grid.x, "first") } else { (&grid.y, "second") };
     let (count, across) = (along.len(), grid.values.len() / along.len());
     let value = |line: usize, at: usize| match axis {
@@ -151,11 +152,12 @@ fn close(name: &Ident, grid: &mut Grid, axis: usize) -> Result<f64, Diagnostic> 
         _ => grid.values.get(at * count + line),
     };
     let period = along.last().zip(along.first()).map_or(f64::NAN, |(last, first)| last - first);
-    if count < 4 {
-        let message =
-            format!("`{name}` has {count} values of its {which} argument, along which it is periodic");
-        return Err(Diagnostic::new(name.span(), message)
-            .help("give it four or more, of which the last is the first again"));
+    let needed = if table.interpolation == Interpolation::Cubic { 4 } else { 3 };
+    if count < needed {
+        let found = counted(count, "value");
+        let message = format!("`{name}` has {found} of its {which} argument, along which it is periodic");
+        let help = format!("give it {needed} or more, of which the last is the first again");
+        return Err(Diagnostic::new(name.span(), message).help(help));
     }
     if (0..across).any(|at| value(0, at) != value(count - 1, at)) {
         let message = format!(

@@ -41,8 +41,9 @@ impl Resolver<'_> {
                     && chosen.insert(&constraint.name)
                 {
                     let name = &constraint.name;
+                    let meets = if constraint.rate.is_some() { "" } else { " with one slope" };
                     let message = format!(
-                        "`{name}` chooses by a condition: unless both values meet there with one slope, the velocity jumps, \
+                        "`{name}` chooses by a condition: unless both values meet there{meets}, the velocity jumps, \
                          and no force of it is known"
                     );
                     found.push(
@@ -52,17 +53,24 @@ impl Resolver<'_> {
                 }
                 let Node::Spline(id, ..) = *self.scope.arena.node(node) else { continue };
                 let Some(spline) = self.scope.arena.splines().get(id.index()) else { continue };
-                let what = [("value", spline.jump(0)), ("slope", spline.jump(1))];
+                // a slope that jumps in a rate is an acceleration that does
+                let slope = spline.jump(1).filter(|_| constraint.rate.is_none());
+                let what = [("value", spline.jump(0)), ("slope", slope)];
                 let jump = what.into_iter().find_map(|(what, jump)| Some((what, jump?.0)));
                 let Some((what, at)) = jump.filter(|_| told.insert(id)) else { continue };
-                let (name, table) = (&constraint.name, &spline.name);
+                let table = spline.bends.as_ref().map_or(&spline.name, |bends| &bends.of);
+                let name = &constraint.name;
                 let message = format!(
                     "the {what} of `{table}` jumps at {at}: there `{name}` gives a jump of velocity, and no force of it"
                 );
-                found.push(Diagnostic::new(constraint.span, message).help(
-                    "between its points a `monotone` table has no jump; end it with two points of one value, and it has \
-                     none where that value is held",
-                ));
+                let help = match spline.bends {
+                    Some(_) => "a `cubic` table has no jump between its points",
+                    None => {
+                        "between its points a `monotone` table has no jump; end it with two points of one value, and it \
+                         has none where that value is held"
+                    }
+                };
+                found.push(Diagnostic::new(constraint.span, message).help(help));
             }
         }
         found

@@ -145,8 +145,11 @@ pub enum EnergyRole {
 }
 
 impl EnergyRole {
+    /// The words of both.
+    pub const WORDS: [&str; 2] = [Self::Potential.word(), Self::Dissipation.word()];
+
     /// The word with which its statement begins.
-    pub fn word(self) -> &'static str {
+    pub const fn word(self) -> &'static str {
         match self {
             Self::Potential => "potential",
             Self::Dissipation => "dissipation",

@@ -50,10 +50,15 @@ pub(super) fn table(input: ParseStream<'_>) -> Result<ItemKind> {
         let message = format!("table `{name}` has {count} arguments");
         return Err(helped(name.span(), message, "a table is a function of one argument or of two"));
     }
+    if let Some(again) = arguments.iter().skip(1).find(|argument| Some(*argument) == arguments.first()) {
+        let message = format!("both arguments of table `{name}` are called `{again}`");
+        return Err(helped(again.span(), message, "call one of them another name"));
+    }
     equals(input)?;
     if !input.peek(token::Bracket) {
         let example = if count == 1 { TABLE } else { MAP };
-        return Err(Error::new(input.span(), format!("points are expected here, as in `{example}`")));
+        let file = format!("points of a file are `from \"{name}.csv\"`");
+        return Err(helped(input.span(), format!("points are expected here, as in `{example}`"), file));
     }
     let content;
     bracketed!(content in input);

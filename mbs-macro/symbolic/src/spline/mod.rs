@@ -111,9 +111,19 @@ pub struct Spline {
     pub period: Option<f64>,
     /// In ascending order. The first one holds before its beginning, too, and the last one for ever.
     pub segments: Vec<Segment>,
-    /// The arguments at which the function bends of which this one is a part, in ascending order; of a function of its
-    /// own that follows from the segments.
-    pub bends: Option<Vec<f64>>,
+    /// Where the function bends of which this one is a part; of a function of its own that follows from the segments.
+    pub bends: Option<Bends>,
+}
+
+/// Where a function of two arguments bends along one of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bends {
+    /// The name of the function.
+    pub of: String,
+    /// The arguments, in ascending order.
+    pub at: Vec<f64>,
+    /// The order of the derivative that jumps there, 0 for the value.
+    pub order: u8,
 }
 
 impl Spline {
@@ -137,7 +147,7 @@ impl Spline {
     /// one those within a period.
     pub fn knots(&self) -> Vec<f64> {
         if let Some(bends) = &self.bends {
-            return bends.clone();
+            return bends.at.clone();
         }
         self.corners().into_iter().map(|(at, _)| at).collect()
     }
@@ -160,9 +170,11 @@ impl Spline {
 
     /// The place of the largest jump of a derivative of this order, 0 or 1, between two pieces, and the jump; none
     /// where there is only that of rounding.
+    ///
+    /// Of a part of a function of two arguments the first place, and a jump of unknown size.
     pub fn jump(&self, order: u8) -> Option<(f64, f64)> {
-        if self.bends.is_some() {
-            return None;
+        if let Some(bends) = &self.bends {
+            return bends.at.first().filter(|_| bends.order == order).map(|at| (*at, f64::NAN));
         }
         let jumps = self.jumps().into_iter();
         let jumps =

@@ -5,7 +5,7 @@
 //! row, and the splines there take y. So a surface costs some searches of a logarithm of its points each, and needs
 //! nothing of its own in a target. A place in a row is off by a rounding of the length of all rows.
 
-use super::{Interpolation, Outside, Segment, Spline, SplineId};
+use super::{Bends, Interpolation, Outside, Segment, Spline, SplineId};
 use crate::arena::{Arena, Expr};
 use crate::number::Number;
 
@@ -45,6 +45,7 @@ struct Axis {
 struct Lines<'a> {
     at: &'a [f64],
     outside: Outside,
+    interpolation: Interpolation,
 }
 
 impl Lines<'_> {
@@ -59,21 +60,22 @@ impl Lines<'_> {
     }
 
     /// The pieces of the function through values, without what is outside of them.
-    fn pieces(&self, values: &[f64], interpolation: Interpolation) -> Option<Vec<Segment>> {
+    fn pieces(&self, values: &[f64]) -> Option<Vec<Segment>> {
         let outside = self.period().map_or(Outside::Extend, Outside::Periodic);
         let points: Vec<_> = self.at.iter().copied().zip(values.iter().copied()).collect();
-        let mut pieces = Spline::through("", &points, interpolation, outside)?.segments;
+        let mut pieces = Spline::through("", &points, self.interpolation, outside)?.segments;
         pieces.truncate(self.count());
         Some(pieces)
     }
 
-    /// The number of pieces.
+    /// The number of pieces: of a step function the last value is one, too.
     fn count(&self) -> usize {
-        if self.period().is_some() { self.at.len() } else { self.at.len() - 1 }
+        let is_closed = self.period().is_some() || self.interpolation == Interpolation::Step;
+        if is_closed { self.at.len() } else { self.at.len() - 1 }
     }
 
-    /// The argument, brought within the lines; it bends at them if the surface does.
-    fn axis(&self, arena: &mut Arena, name: &str, bends: bool) -> Option<Axis> {
+    /// An argument of a surface, brought within the lines; it bends at them if the surface does.
+    fn axis(&self, arena: &mut Arena, of: &str, name: &str) -> Option<Axis> {
         let ends = [*self.at.first()?, *self.at.last()?].map(|end| (end, end));
         let mut spline = match self.outside {
             Outside::Periodic(period) => Spline {
@@ -89,11 +91,14 @@ impl Lines<'_> {
             }
         };
         let is_extended = self.outside == Outside::Extend;
-        spline.bends = Some(match (bends, self.outside) {
-            (true, _) => self.at.to_vec(),
-            (false, Outside::Hold | Outside::Extend) => ends.map(|(end, _)| end).to_vec(),
-            (false, _) => Vec::new(),
-        });
+        let (at, order) = match (self.interpolation, self.outside) {
+            (Interpolation::Step, _) => (self.at.to_vec(), 0),
+            (Interpolation::Linear, _) => (self.at.to_vec(), 1),
+            (_, Outside::Hold) => (ends.map(|(end, _)| end).to_vec(), 1),
+            (_, Outside::Extend) => (ends.map(|(end, _)| end).to_vec(), 2),
+            (_, Outside::Periodic(_) | Outside::Refuse) => (Vec::new(), 3),
+        };
+        spline.bends = Some(Bends { of: of.to_owned(), at, order });
         Some(Axis { within: arena.add_spline(spline), is_extended })
     }
 }
@@ -108,8 +113,11 @@ impl Arena {
         interpolation: Interpolation,
         outside: [Outside; 2],
     ) -> Option<Surface> {
-        let [x, y] =
-            [(&grid.x, outside[0]), (&grid.y, outside[1])].map(|(at, outside)| Lines { at, outside });
+        let [x, y] = [(&grid.x, outside[0]), (&grid.y, outside[1])].map(|(at, outside)| Lines {
+            at,
+            outside,
+            interpolation,
+        });
         let is_grid = x.at.len() >= 2 && y.at.len() >= 2 && grid.values.len() == x.at.len() * y.at.len();
         if !is_grid || interpolation == Interpolation::Monotone {
             return None;
@@ -122,7 +130,7 @@ impl Arena {
         // along x for each y: the coefficients of each piece
         let along_x = (0..y.at.len()).map(|at| {
             let values: Vec<f64> = grid.values.iter().skip(at).step_by(y.at.len()).copied().collect();
-            x.pieces(&values, interpolation)
+            x.pieces(&values)
         });
         let along_x: Vec<Vec<Segment>> = along_x.collect::<Option<_>>()?;
         let first = *y.at.first()?;
@@ -134,10 +142,10 @@ impl Arena {
             let mut segments = Vec::new();
             for (at, row) in rows.iter().enumerate() {
                 let values: Vec<f64> = along_x.iter().map(|pieces| pieces[at].coefficients[power]).collect();
-                segments.extend(row_segments(&y, y.pieces(&values, interpolation)?, *row)?);
+                segments.extend(row_segments(&y, y.pieces(&values)?, *row)?);
             }
             let part = format!("{name}_c{power}");
-            let bends = Some(Vec::new());
+            let bends = Some(Bends::default());
             parts.push(self.add_spline(Spline { name: part, origin: first, period: None, segments, bends }));
         }
         let mut steps = |of: &str, values: &[f64]| {
@@ -154,12 +162,10 @@ impl Arena {
                 },
                 _ => Spline::through(&name, &points.collect::<Vec<_>>(), Interpolation::Step, Outside::Hold)?,
             };
-            Some(self.add_spline(Spline { bends: Some(Vec::new()), ..steps }))
+            Some(self.add_spline(Spline { bends: Some(Bends::default()), ..steps }))
         };
         let (begin, row) = (steps("x", x.at.get(..x.count())?)?, steps("row", &rows)?);
-        let bends = interpolation != Interpolation::Cubic;
-        let axes =
-            [x.axis(self, &format!("{name}_in1"), bends)?, y.axis(self, &format!("{name}_in2"), bends)?];
+        let axes = [x.axis(self, name, &format!("{name}_in1"))?, y.axis(self, name, &format!("{name}_in2"))?];
         Some(Surface { axes, begin, row, parts })
     }
 

@@ -72,13 +72,15 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
     for line in info.doc.trim().lines() {
         let _ = writeln!(text, "  {}", line.trim());
     }
+    let has_rates = info.constraints.iter().any(|row| row.is_rate);
     let _ = writeln!(
         text,
         "\n{}, {}, {} of freedom.\n\
-         M q̈ + Φ_qᵀ λ = Q,  Φ_q q̈ = γ − 2αΦ̇ − β²Φ;  SI units, angles in radians.",
+         M q̈ + Φ_qᵀ λ = Q,  Φ_q q̈ = γ − 2αΦ̇ − β²Φ{};  SI units, angles in radians.",
         coordinates(info),
         counted(info.constraints.len(), "constraint"),
         counted(info.dof, "degree"),
+        if has_rates { ", γ − αΦ̇ of rates" } else { "" },
     );
     for (heading, formulas, name) in sections(derivation) {
         let mut lines: Vec<_> = formulas.iter().map(|formula| (name(formula).0, formula.text)).collect();
