@@ -96,6 +96,8 @@ impl Entry {
             "brake" => Settings { end: 16.0, ..Settings::default() },
             "engine" => Settings { end: 2.0, ..Settings::default() },
             "boom-cylinder" => Settings { end: 8.0, ..Settings::default() },
+            // as far as a page shows a turn
+            "chaplygin-sleigh" | "differential-drive" => Settings { end: 4.0, ..Settings::default() },
             _ => Settings::default(),
         }
     }

@@ -133,12 +133,13 @@ impl Scope<'_> {
         let asked = name_of(name, of)?;
         let text = asked.to_string();
         // those of a force on one body are none
-        let has_length =
-            |source: &Source| ["spring", "force"].contains(&source.word) && source.ends.is_some();
+        let has_length = |source: &Source| {
+            ["spring", "force", "rope", "strut"].contains(&source.word) && source.ends.is_some()
+        };
         let Some(ends) = self.sources.get(&text).filter(|s| has_length(s)).and_then(|s| s.ends.clone())
         else {
             let known = self.sources.iter().filter(|(_, source)| has_length(source)).map(|(name, _)| name);
-            return Err(unknown(asked, "spring or force between points", known));
+            return Err(unknown(asked, "spring, rope, strut or force between points", known));
         };
         let [first, second] = &ends;
         let placed = self.attachment(first, errors).zip(self.attachment(second, errors));
