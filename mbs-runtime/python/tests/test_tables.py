@@ -38,7 +38,7 @@ CURVES = {
 MAPS = {"linear outside extend": bilinear, "cubic outside hold": cubic}
 
 
-def seen(table: str, arguments: str, folder: Path) -> mbs.Recording:
+def seen(table: str, arguments: str, folder: Path) -> mbs.Run:
     """A run that looks at a thousand places, 0.2 % apart."""
     text = f"""Looked {{
         dof = 0;
