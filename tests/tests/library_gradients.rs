@@ -49,6 +49,8 @@ fn sources() -> Vec<(String, String)> {
 struct Arguments<T> {
     numbers: Vec<T>,
     n: usize,
+    /// Of bodies, behind which own states stand.
+    lines: usize,
     inputs: usize,
 }
 
@@ -75,7 +77,7 @@ fn arguments(live: &Live) -> Arguments<f64> {
     run.set_inputs(&inputs);
     run.advance(STEPS).unwrap();
     let numbers = [&[run.time()], run.q(), run.v(), &inputs, live.parameters()].concat();
-    Arguments { numbers, n: info.coordinates.len(), inputs: inputs.len() }
+    Arguments { numbers, n: info.coordinates.len(), lines: info.lines, inputs: inputs.len() }
 }
 
 /// q̈, λ and the outputs.
@@ -112,14 +114,16 @@ fn largest(numbers: &[f64]) -> f64 {
 }
 
 /// The steps of the differences: shares of a parameter, of a length of the mechanism, of its
-/// velocities.
+/// velocities, of a state of its own.
 fn step(given: &Arguments<f64>, at: usize) -> f64 {
     let At { q, v, .. } = given.at();
     let (n, x) = (given.n, given.numbers[at]);
     let scale = match at {
         0 => 0.01,
         _ if at <= n => 0.1 * largest(q).min(1.0),
-        _ if at <= 2 * n => 0.1 * largest(v).max(1.0),
+        _ if at <= n + given.lines => 0.1 * largest(&v[..given.lines]).max(1.0),
+        // states of its own have units of their own
+        _ if at <= 2 * n => 0.1 * x.abs().max(1.0),
         _ if x == 0.0 => 1.0,
         _ => x.abs(),
     };
@@ -137,7 +141,8 @@ fn equations_of(live: &Live) {
             Some(index) => Partials::variable(x, index),
             None => Partials::constant(x),
         });
-        let duals = Arguments { numbers: numbers.collect(), n: given.n, inputs: given.inputs };
+        let duals =
+            Arguments { numbers: numbers.collect(), n: given.n, lines: given.lines, inputs: given.inputs };
         let mut found = [vec![], vec![], vec![]];
         let tools = Described::differentiable(live).unwrap();
         tools.with_partials(duals.parameters(), &mut |equations| found = solved(equations, &duals)).unwrap();
@@ -321,7 +326,12 @@ fn transposed_programs_have_the_derivatives_of_duals() {
             let numbers = given.numbers.iter().enumerate();
             let numbers =
                 numbers.map(|(other, &x)| Partials::variable(x, if other == at { 0 } else { PARTIALS }));
-            let duals = Arguments { numbers: numbers.collect(), n: given.n, inputs: given.inputs };
+            let duals = Arguments {
+                numbers: numbers.collect(),
+                n: given.n,
+                lines: given.lines,
+                inputs: given.inputs,
+            };
             let mut terms = Vec::new();
             let tools = Described::differentiable(&live).unwrap();
             tools

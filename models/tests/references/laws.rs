@@ -199,8 +199,8 @@ fn engine_turns_by_the_virtual_work_of_its_gas() {
     }
 }
 
-/// The area of the diagram over the volume, by Simpson's rule in 200 parts of each of its pieces: to 1e-12 of it. Every
-/// cycle of the run bends at 26 points, each of which may leave 1e-10 J.
+/// The area of the diagram over the volume, by Simpson's rule in 200 parts of each of its pieces: to 1e-12 of it. A
+/// cycle of the run takes some 200 steps, which end at 26 points of the diagram, each to 1e-12 of 170 J.
 #[test]
 fn engine_works_by_the_area_of_its_diagram() -> Result<(), Error> {
     const PARTS: u32 = 200;
@@ -227,7 +227,7 @@ fn engine_works_by_the_area_of_its_diagram() -> Result<(), Error> {
         let end = start + 4.0 * PI * f64::from(cycle);
         let event = run.advance_until(3.0, [Direction::Rising], |at| [at.q.theta - end])?;
         assert!(event.is_some());
-        near("work of the gas", run.state().v.gas_work, f64::from(cycle) * work, 1e-8 * f64::from(cycle));
+        near("work of the gas", run.state().v.gas_work, f64::from(cycle) * work, 3e-8 * f64::from(cycle));
     }
     Ok(())
 }

@@ -51,13 +51,13 @@ fn brake_heats_its_disc() -> Result<(), Error> {
     })
 }
 
-/// With fade against the method of Runge and Kutta with 10⁻⁵ s, written out here. The law bends at the points of
-/// the table, where a step of it is off by h² times the jump of the acceleration's rate, 1 rad/s³: 1e-10 rad/s
-/// each. And
-/// the energy that is gone is stored or taken by the air, to 1e-12 of 740 kJ.
+/// With fade against the method of Runge and Kutta with 2·10⁻⁵ s, written out here. The law bends at the points of
+/// the table, where a step of it is off by h² times the jump of the acceleration's rate, 1 rad/s³: 4e-10 rad/s. The
+/// run's steps are some hundred, each to 1e-12 of 300 rad/s and of 700 K. And the energy that is gone is stored or taken
+/// by the air, to 1e-12 of 740 kJ.
 #[test]
 fn brake_fades() -> Result<(), Error> {
-    const STEP: f64 = 1e-5;
+    const STEP: f64 = 2e-5;
     let p: BrakeParameters<f64> = BrakeParameters::default();
     let points = [(420.0, 0.0), (520.0, 0.08), (620.0, 0.3), (720.0, 0.5)];
     let coefficient = |temperature: f64| {
@@ -89,8 +89,8 @@ fn brake_fades() -> Result<(), Error> {
         }
         run.advance_to(t)?;
         let at = run.state();
-        near("speed", at.v.theta, by_hand[0], 1e-9);
-        near("temperature", at.v.temperature, by_hand[1], 1e-8);
+        near("speed", at.v.theta, by_hand[0], 1e-8);
+        near("temperature", at.v.temperature, by_hand[1], 3e-8);
         let (_, outputs) = found(run.mechanism(), &at, run.inputs());
         near("friction", outputs.friction, coefficient(by_hand[1]), 1e-10);
         let gone = energy - 0.5 * p.inertia * at.v.theta * at.v.theta;
