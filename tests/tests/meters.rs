@@ -1,6 +1,6 @@
 //! Meters of work: the energy balance of all forces between bodies, by states of the mechanism's own.
 
-use mbs_runtime::{Adaptive, Dop853, Error, Mechanism, Tolerances, mechanism};
+use mbs_runtime::{Adaptive, Dop853, Error, Tolerances, mechanism};
 
 mechanism! {
     /// All forces between bodies, each with a meter of its work.

@@ -53,7 +53,7 @@ fn brake_heats_its_disc() -> Result<(), Error> {
 
 /// With fade against the method of Runge and Kutta with 2·10⁻⁵ s, written out here. The law bends at the points of
 /// the table, where a step of it is off by h² times the jump of the acceleration's rate, 1 rad/s³: 4e-10 rad/s. The
-/// run's steps are some hundred, each to 1e-12 of 300 rad/s and of 700 K. And the energy that is gone is stored or taken
+/// run's steps are some hundred, each to 1e-12 of 157 rad/s and of 700 K. And the energy that is gone is stored or taken
 /// by the air, to 1e-12 of 740 kJ.
 #[test]
 fn brake_fades() -> Result<(), Error> {
