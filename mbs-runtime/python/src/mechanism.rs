@@ -39,6 +39,11 @@ pub fn compile(
         Some(text) => Text::declaration(file.display().to_string(), text),
         None => Text::read(&file)?,
     };
+    // a text that no file has is called `declaration`
+    let text = match file.extension().and(file.parent()) {
+        Some(folder) => text.in_folder(folder),
+        None => text,
+    };
     let text = match name {
         Some(name) => text.named(name),
         None => text,

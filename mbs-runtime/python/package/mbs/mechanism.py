@@ -58,7 +58,7 @@ def compile(source: str | os.PathLike[str], name: str | None = None) -> Mechanis
     """Compiles a declaration: its text, or a file that has it, in some milliseconds.
 
     A text is what contains a ``{``. A file is a declaration by itself, or a Rust file with blocks ``mechanism! { … }``
-    of which ``name`` chooses one.
+    of which ``name`` chooses one. Tables of files are read beside it.
 
     Raises ``DeclarationError`` with the underlined source, and ``OSError``.
 
