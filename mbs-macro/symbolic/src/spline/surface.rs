@@ -74,6 +74,20 @@ impl Lines<'_> {
         if is_closed { self.at.len() } else { self.at.len() - 1 }
     }
 
+    /// The step function that has a value on each piece.
+    fn steps(&self, name: &str, values: &[f64]) -> Option<Spline> {
+        let points: Vec<_> = self.at.iter().copied().zip(values.iter().copied()).collect();
+        let steps = match *points {
+            // a step function through points has two or more
+            [(origin, value)] => {
+                let segments = vec![Segment { from: 0.0, coefficients: [value, 0.0, 0.0, 0.0] }];
+                Spline { name: name.to_owned(), origin, period: None, segments, bends: None }
+            }
+            _ => Spline::through(name, &points, Interpolation::Step, Outside::Hold)?,
+        };
+        Some(Spline { bends: Some(Bends::default()), ..steps })
+    }
+
     /// An argument of a surface, brought within the lines; it bends at them if the surface does.
     fn axis(&self, arena: &mut Arena, of: &str, name: &str) -> Option<Axis> {
         let ends = [*self.at.first()?, *self.at.last()?].map(|end| (end, end));
@@ -122,49 +136,18 @@ impl Arena {
         if !is_grid || interpolation == Interpolation::Monotone {
             return None;
         }
-        let powers = match interpolation {
-            Interpolation::Step => 1,
-            Interpolation::Linear => 2,
-            Interpolation::Cubic | Interpolation::Monotone => 4,
-        };
-        // along x for each y: the coefficients of each piece
-        let along_x = (0..y.at.len()).map(|at| {
-            let values: Vec<f64> = grid.values.iter().skip(at).step_by(y.at.len()).copied().collect();
-            x.pieces(&values)
-        });
-        let along_x: Vec<Vec<Segment>> = along_x.collect::<Option<_>>()?;
         let first = *y.at.first()?;
         // between two rows there is room for arguments that are an end but for their rounding
         let stride = (y.end()? - first) * (1.0 + 1.0 / y.count() as f64);
         let rows: Vec<f64> = (0..x.count()).map(|at| at as f64 * stride).collect();
-        let mut parts = Vec::with_capacity(powers);
-        for power in 0..powers {
-            let mut segments = Vec::new();
-            for (at, row) in rows.iter().enumerate() {
-                let values: Vec<f64> = along_x.iter().map(|pieces| pieces[at].coefficients[power]).collect();
-                segments.extend(row_segments(&y, y.pieces(&values)?, *row)?);
-            }
-            let part = format!("{name}_c{power}");
-            let bends = Some(Bends::default());
-            parts.push(self.add_spline(Spline { name: part, origin: first, period: None, segments, bends }));
-        }
-        let mut steps = |of: &str, values: &[f64]| {
-            let points = x.at.iter().copied().zip(values.iter().copied());
-            let name = format!("{name}_{of}");
-            let steps = match *values {
-                // a step function has two points or more
-                [value] => Spline {
-                    name,
-                    origin: *x.at.first()?,
-                    period: None,
-                    segments: vec![Segment { from: 0.0, coefficients: [value, 0.0, 0.0, 0.0] }],
-                    bends: None,
-                },
-                _ => Spline::through(&name, &points.collect::<Vec<_>>(), Interpolation::Step, Outside::Hold)?,
-            };
-            Some(self.add_spline(Spline { bends: Some(Bends::default()), ..steps }))
-        };
-        let (begin, row) = (steps("x", x.at.get(..x.count())?)?, steps("row", &rows)?);
+        let parts = parts(grid, [&x, &y], &rows)?.into_iter().enumerate().map(|(power, segments)| {
+            let (name, bends) = (format!("{name}_c{power}"), Some(Bends::default()));
+            self.add_spline(Spline { name, origin: first, period: None, segments, bends })
+        });
+        let parts = parts.collect();
+        let begin = x.steps(&format!("{name}_x"), x.at.get(..x.count())?)?;
+        let row = x.steps(&format!("{name}_row"), &rows)?;
+        let [begin, row] = [begin, row].map(|steps| self.add_spline(steps));
         let axes = [x.axis(self, name, &format!("{name}_in1"))?, y.axis(self, name, &format!("{name}_in2"))?];
         Some(Surface { axes, begin, row, parts })
     }
@@ -203,6 +186,30 @@ impl Arena {
         }
         value
     }
+}
+
+/// The pieces of C_p, for each power p, all rows one behind the other.
+fn parts(grid: &Grid, [x, y]: [&Lines<'_>; 2], rows: &[f64]) -> Option<Vec<Vec<Segment>>> {
+    let powers = match x.interpolation {
+        Interpolation::Step => 1,
+        Interpolation::Linear => 2,
+        Interpolation::Cubic | Interpolation::Monotone => 4,
+    };
+    // along x for each y: the coefficients of each piece
+    let along_x = (0..y.at.len()).map(|at| {
+        let values: Vec<f64> = grid.values.iter().skip(at).step_by(y.at.len()).copied().collect();
+        x.pieces(&values)
+    });
+    let along_x: Vec<Vec<Segment>> = along_x.collect::<Option<_>>()?;
+    let part = |power: usize| {
+        let mut segments = Vec::new();
+        for (at, row) in rows.iter().enumerate() {
+            let values: Vec<f64> = along_x.iter().map(|pieces| pieces[at].coefficients[power]).collect();
+            segments.extend(row_segments(y, y.pieces(&values)?, *row)?);
+        }
+        Some(segments)
+    };
+    (0..powers).map(part).collect()
 }
 
 /// The pieces of a row at its place, and what is behind its end.
