@@ -31,7 +31,7 @@ impl Knots {
         self.knot(periods, next)
     }
 
-    /// How many periods a value is behind the first one, and the value within that.
+    /// The number of periods by which a value is behind the first one, and the value within that.
     fn wrapped(&self, value: f64) -> (f64, f64) {
         let periods = match self.at.first() {
             Some(first) if self.period > 0.0 => floor((value - first) / self.period),

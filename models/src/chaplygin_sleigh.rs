@@ -34,7 +34,7 @@ mechanism! {
         param mass = 2 [kg] where mass > 0;
         /// Its moment of inertia about the centre of mass.
         param inertia = 0.5 [kg*m^2] where inertia > 0;
-        /// How far the edge is behind the centre of mass.
+        /// Distance of the edge behind the centre of mass.
         param behind = 0.3 [m];
         /// Rate at which it turns at the start.
         param turning = 2 [rad/s];

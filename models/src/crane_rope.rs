@@ -49,7 +49,7 @@ mechanism! {
         param damping = 1 [kN*s/m] where damping >= 0;
         /// Stiffness of the floor.
         param floor_stiffness = 2500 [kN/m] where floor_stiffness >= 0;
-        /// How much of the rope is slack at the start.
+        /// Slack of the rope at the start.
         param slack = 0.3 [m] where slack < rope_length;
         /// Height by which the hook is lifted.
         param hoist = 1.5 [m];

@@ -38,37 +38,37 @@ both! {
     }
 }
 
-mechanism! {
-    /// A magnet above a plate of iron, on a spring, in oil: all forces by differentiation.
-    Magnet {
-        dof = 2;
-        param stiffness = 40 [N/m];
-        param strength = 0.02 [N*m^2];
-        param damping = 0.3 [N*s/m];
-        gravity = (0, -9.81) [m/s^2];
-        body magnet (x, y) { mass = 0.5 [kg]; }
-        potential spring = stiffness*(x^2 + y^2)/2;
-        potential attraction = -strength/(y + 1 [m]);
-        dissipation oil = damping*(der(x)^2 + der(x)*der(y) + der(y)^2)/2;
-        start { x = 0.3 [m]; y = 0.1 [m]; }
-        output lost [W] = power(oil);
-        output gained [W] = power(spring) + power(attraction);
-    }
+/// A magnet above a plate of iron, on a spring, in oil, with statements for its forces.
+macro_rules! magnet {
+    ($Name:ident: $($statement:tt)*) => {
+        mechanism! {
+            $Name {
+                dof = 2;
+                param stiffness = 40 [N/m];
+                param strength = 0.02 [N*m^2];
+                param damping = 0.3 [N*s/m];
+                gravity = (0, -9.81) [m/s^2];
+                body magnet (x, y) { mass = 0.5 [kg]; }
+                start { x = 0.3 [m]; y = 0.1 [m]; }
+                $($statement)*
+            }
+        }
+    };
 }
 
-mechanism! {
-    /// The same by forces.
-    ByForces {
-        dof = 2;
-        param stiffness = 40 [N/m];
-        param strength = 0.02 [N*m^2];
-        param damping = 0.3 [N*s/m];
-        gravity = (0, -9.81) [m/s^2];
-        body magnet (x, y) { mass = 0.5 [kg]; }
-        force along on x = -stiffness*x - damping*(der(x) + der(y)/2);
-        force across on y = -stiffness*y - strength/(y + 1 [m])^2 - damping*(der(y) + der(x)/2);
-        start { x = 0.3 [m]; y = 0.1 [m]; }
-    }
+magnet! {
+    Magnet:
+    potential spring = stiffness*(x^2 + y^2)/2;
+    potential attraction = -strength/(y + 1 [m]);
+    dissipation oil = damping*(der(x)^2 + der(x)*der(y) + der(y)^2)/2;
+    output lost [W] = power(oil);
+    output gained [W] = power(spring) + power(attraction);
+}
+
+magnet! {
+    ByForces:
+    force along on x = -stiffness*x - damping*(der(x) + der(y)/2);
+    force across on y = -stiffness*y - strength/(y + 1 [m])^2 - damping*(der(y) + der(x)/2);
 }
 
 fn engine() -> mbs_live::Live {

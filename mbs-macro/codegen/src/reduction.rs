@@ -205,9 +205,7 @@ fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Given {
     let mut given = Given::default();
     let mut dependences: BTreeMap<usize, Dependence> = BTreeMap::new();
     let preference = Preference::new(model, equations);
-    let of_positions = |row: &&usize| model.constraints[**row].rate.is_none();
-    let of_positions: Vec<usize> = rows.basis.iter().filter(of_positions).copied().collect();
-    for row in of_positions {
+    for row in model.of_positions(&rows.basis) {
         let mut dependence = Dependence::of_row(&model.arena, &equations.phi_q[row]);
         for (&coordinate, known) in &dependences {
             dependence.replace(coordinate, known);

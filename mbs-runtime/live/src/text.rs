@@ -4,7 +4,7 @@
 
 #[cfg(not(target_family = "wasm"))]
 use std::fmt::Display;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 #[cfg(not(target_family = "wasm"))]
@@ -14,14 +14,13 @@ use std::thread;
 use std::time::Duration;
 
 use mbs_codegen::compiled::Choices;
-use mbs_codegen::targets::{self, CSources, Experiment, Fmu, Scalar, Wasm};
 use mbs_codegen::{Compiled, Diagnostic, Diagnostics};
 use mbs_runtime::{Baumgarte, Held, PerStage};
 use proc_macro2::{Span, TokenStream};
 
 use crate::error::{Error, Problem, Warnings};
 use crate::live::{Live, Programs};
-use crate::{find, lexing};
+use crate::{find, folder, lexing};
 
 /// The longest text that is compiled, in bytes.
 pub const LONGEST: usize = 1 << 20;
@@ -273,64 +272,8 @@ impl Text {
         .map(Live::new)
     }
 
-    /// Compiles the declaration to C99: a header, a source, an example and a page.
-    ///
-    /// # Errors
-    /// As [`compile`](Self::compile).
-    ///
-    /// # Example
-    /// ```
-    /// use mbs_live::{Scalar, Text};
-    ///
-    /// let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
-    /// let sources = Text::declaration("slider.mbs", text).c(Scalar::Float)?;
-    /// assert!(sources.source.text.contains("slider_step"));
-    /// # Ok::<(), mbs_live::Error>(())
-    /// ```
-    pub fn c(&self, scalar: Scalar) -> Result<CSources, Error> {
-        self.make(move |_, compiled| targets::c(compiled, scalar))
-    }
-
-    /// Compiles the declaration to the files of a functional mock-up unit: descriptions for importers,
-    /// and C code with the functions of the standard.
-    ///
-    /// # Errors
-    /// As [`compile`](Self::compile).
-    ///
-    /// # Example
-    /// ```
-    /// use mbs_live::{Experiment, Text};
-    ///
-    /// let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
-    /// let fmu = Text::declaration("slider.mbs", text).fmu(Experiment { step: 1e-3, end: 1.0 })?;
-    /// assert!(fmu.sources.iter().any(|file| file.text.contains("fmi3DoStep")));
-    /// # Ok::<(), mbs_live::Error>(())
-    /// ```
-    pub fn fmu(&self, experiment: Experiment) -> Result<Fmu, Error> {
-        self.make(move |_, compiled| targets::fmi(compiled, experiment))
-    }
-
-    /// Compiles the declaration to a WebAssembly module, with the tables that the script of its runs
-    /// reads.
-    ///
-    /// # Errors
-    /// As [`compile`](Self::compile).
-    ///
-    /// # Example
-    /// ```
-    /// use mbs_live::Text;
-    ///
-    /// let text = "Slider { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 1 [m]; } }";
-    /// let slider = Text::declaration("slider.mbs", text).wasm()?;
-    /// assert!(slider.module.starts_with(b"\0asm") && slider.module.len() < 20_000);
-    /// # Ok::<(), mbs_live::Error>(())
-    /// ```
-    pub fn wasm(&self) -> Result<Wasm, Error> {
-        self.make(|_, compiled| targets::wasm(compiled))
-    }
-
     /// Compiles the text, and calls `target` with the declaration as tokens and the compiled mechanism.
-    fn make<T: Send + 'static>(
+    pub(crate) fn make<T: Send + 'static>(
         &self,
         target: impl FnOnce(String, &Compiled) -> Result<T, Diagnostics> + Send + 'static,
     ) -> Result<T, Error> {
@@ -403,33 +346,11 @@ fn make<T>(
         Form::Rust(name) => find::block(tokens, name.as_deref()).map_err(|error| problems(error.into()))?,
     };
     let declaration =
-        mbs_codegen::with_files(declaration, &mut |name| beside(folder, name)).map_err(problems)?;
+        mbs_codegen::with_files(declaration, &mut |name| folder::read(folder, name)).map_err(problems)?;
     let key = declaration.to_string();
     let compiled = mbs_codegen::analyse(declaration).map_err(problems)?;
     check_feedback(&compiled).map_err(|error| problems(error.into()))?;
     target(key, &compiled).map_err(problems)
-}
-
-/// The text of a file in a folder, or why there is none.
-fn beside(folder: Option<&Path>, name: &str) -> Result<String, String> {
-    let Some(folder) = folder else { return Err("this text has no folder".into()) };
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let found =
-        fs::canonicalize(folder).and_then(|folder| Ok((fs::canonicalize(folder.join(name))?, folder)));
-    let (path, folder) = found.map_err(|error| error.to_string())?;
-    if !path.starts_with(folder) {
-        return Err("it is not in that folder".into());
-    }
-    if !path.is_file() {
-        return Err("it is no file".into());
-    }
-    let mut text = String::new();
-    let read = File::open(&path).and_then(|file| file.take(LONGEST as u64 + 1).read_to_string(&mut text));
-    match read {
-        Err(error) => Err(error.to_string()),
-        Ok(_) if text.len() > LONGEST => Err(format!("it has more than {LONGEST} bytes")),
-        Ok(_) => Ok(text),
-    }
 }
 
 /// Compiles the programs that runs of a mechanism need, with transposed ones if the declaration asks for gradients

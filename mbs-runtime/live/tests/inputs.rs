@@ -87,7 +87,7 @@ fn values_have_units() {
     assert_eq!(declared(&live), expected);
 }
 
-/// What is printed of a mechanism says the values, and nothing of them where all are 0.
+/// Printed sources and the page of a mechanism have the values, and nothing of them where all are 0.
 #[test]
 fn printed_code_begins_at_them() {
     let plain = text(&CART.replace(" = 4 [N];", ";"));

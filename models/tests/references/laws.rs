@@ -81,7 +81,7 @@ fn hoisting(p: &CraneRopeParameters<f64>) -> f64 {
 fn crane_rope_goes_slack_and_is_caught() -> Result<(), Error> {
     let p: CraneRopeParameters<f64> = CraneRopeParameters::default();
     let parts = lift(&p)?;
-    let mut run = to_tolerance(CraneRope::declared()).build()?;
+    let mut run = to_tolerance(CraneRope::declared(), 1e-12).build()?;
     for (name, (begin, _)) in ["taut", "lifted", "slack", "taut"].into_iter().zip(&parts) {
         let event = run.advance_to_event(1.5)?.unwrap();
         assert_eq!(CraneRope::<f64>::INFO.events[event.index].name, name);
@@ -89,7 +89,7 @@ fn crane_rope_goes_slack_and_is_caught() -> Result<(), Error> {
     }
     assert!(run.advance_to_event(1.5)?.is_none());
 
-    let mut run = to_tolerance(CraneRope::declared()).build()?;
+    let mut run = to_tolerance(CraneRope::declared(), 1e-12).build()?;
     for t in [0.53, 0.56, 0.6, 0.7, 0.82, 0.85, 0.88, 0.9, 1.0, 1.2, 1.5] {
         run.advance_to(t)?;
         let (begin, part) = parts.iter().rfind(|(begin, _)| *begin < t).unwrap();
@@ -221,7 +221,7 @@ fn engine_works_by_the_area_of_its_diagram() -> Result<(), Error> {
     // 231 mL and a mean pressure of 7.2 bar
     assert!((166.0..168.0).contains(&work), "{work}");
 
-    let mut run = to_tolerance(mechanism).build()?;
+    let mut run = to_tolerance(mechanism, 1e-12).build()?;
     let start = run.state().q.theta;
     for cycle in 1..=5 {
         let end = start + 4.0 * PI * f64::from(cycle);

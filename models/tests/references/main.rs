@@ -71,9 +71,9 @@ fn along<M: Mechanism<Real = f64>>(
     }
 }
 
-/// A run to 1e-12 of the motion in a step, to be started.
-fn to_tolerance<M: Mechanism<Real = f64>>(mechanism: M) -> AdaptiveBuilder<M, Dop853> {
-    let tolerances = Tolerances { rtol: 1e-12, atol: 1e-14, ..Tolerances::default() };
+/// A run to a share of the motion in a step, to be started.
+fn to_tolerance<M: Mechanism<Real = f64>>(mechanism: M, rtol: f64) -> AdaptiveBuilder<M, Dop853> {
+    let tolerances = Tolerances { rtol, atol: 1e-2 * rtol, ..Tolerances::default() };
     Adaptive::builder(mechanism).scheme::<Dop853>().tolerances(tolerances)
 }
 

@@ -74,7 +74,7 @@ fn brake_fades() -> Result<(), Error> {
     let mut by_hand = [p.speed, p.warm];
     let mut steps = 0_u32;
 
-    let mut run = to_tolerance(Brake::declared()).build()?;
+    let mut run = to_tolerance(Brake::declared(), 1e-12).build()?;
     let energy = 0.5 * p.inertia * p.speed * p.speed;
     for t in [1.0, 3.0, 5.0, 8.0, 11.0, 13.0] {
         while f64::from(steps) * STEP < t - 0.5 * STEP {
@@ -174,7 +174,7 @@ fn boom_bounces_with_its_hydraulic_frequency() -> Result<(), Error> {
     let omega = ((oil * s1 * s1 - g0 / s1 * s2 + g1) / inertia).sqrt();
     near("frequency in Hz", omega / TAU, 8.9916, 1e-4);
     let mechanism = BoomCylinder::new(p)?;
-    let mut run = to_tolerance(mechanism).from_state(turning(&mechanism, 1e-4)).build()?;
+    let mut run = to_tolerance(mechanism, 1e-12).from_state(turning(&mechanism, 1e-4)).build()?;
     for period in 1..=5 {
         let event = run.advance_until(1.0, [Direction::Rising], |at| [at.q.phi - p.phi0])?.unwrap();
         near("period", event.t / f64::from(period), TAU / omega, 1e-10 * TAU / omega);
@@ -192,7 +192,7 @@ fn boom_keeps_its_oil() -> Result<(), Error> {
         let volumes = boom(&p, at.q.phi).volumes.map(f64::ln);
         [at.v.p_a + p.modulus * volumes[0], at.v.p_b + p.modulus * volumes[1]]
     };
-    let mut run = to_tolerance(mechanism).from_state(turning(&mechanism, 0.05)).build()?;
+    let mut run = to_tolerance(mechanism, 1e-12).from_state(turning(&mechanism, 0.05)).build()?;
     let (from, mut highest) = (kept(&run.state()), 0.0_f64);
     for k in 1..=100 {
         run.advance_to(0.01 * f64::from(k))?;
@@ -214,7 +214,7 @@ fn boom_is_lifted_by_its_valve() -> Result<(), Error> {
     let root = |over: f64| over / (over * over + (2.0_f64 / 35.0).powi(2)).powf(0.25);
     let plan =
         [(0.0, 0.0), (0.2, 0.0), (0.5, 0.6), (2.5, 0.6), (2.7, 0.0), (3.5, 0.0), (3.8, -0.4), (6.0, -0.4)];
-    let mut run = to_tolerance(BoomCylinder::declared()).build()?;
+    let mut run = to_tolerance(BoomCylinder::declared(), 1e-12).build()?;
     for t in [0.1, 0.3, 0.45, 0.7, 1.5, 2.3, 2.6, 3.0, 3.6, 3.9, 5.0] {
         run.advance_to(t)?;
         let at = run.state();

@@ -198,9 +198,7 @@ impl<'a> Assembly<'a> {
     /// Marquardt: the damping, of the order of the violation, keeps the convergence
     /// quadratic where the rows depend on each other (Yamashita and Fukushima 2001).
     pub fn close_with(&self, rows: &[usize], guess: &Position, kept: &[usize]) -> Closing {
-        // no position violates an equation between rates
-        let is_of_positions = |&row: &usize| self.model.constraints[row].rate.is_none();
-        let rows = &rows.iter().copied().filter(is_of_positions).collect::<Vec<_>>();
+        let rows = &self.model.of_positions(rows);
         let mut at = guess.clone();
         let mut phi = self.phi(&at);
         let mut damping = 1e-2;

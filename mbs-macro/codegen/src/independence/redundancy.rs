@@ -59,7 +59,7 @@ pub fn choose(
     }
 }
 
-/// What repeats others is watched by its Φ, which an equation between rates has not.
+/// Refuses spare equations between rates: a row that repeats others is watched by its Φ, which they have not.
 fn no_rates(model: &Model, manifold: &Manifold) -> Result<(), Diagnostic> {
     let is_rate = |row: &usize| model.constraints[*row].rate.is_some();
     let of_rates = |(row, others): &&Dependent| is_rate(row) || others.iter().any(is_rate);

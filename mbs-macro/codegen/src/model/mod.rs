@@ -285,6 +285,11 @@ impl Model {
         self.coordinates.iter().filter(|coordinate| !coordinate.is_own()).count()
     }
 
+    /// The rows of these that are equations between positions. No position violates the others, those between rates.
+    pub fn of_positions(&self, rows: &[usize]) -> Vec<usize> {
+        rows.iter().copied().filter(|&row| self.constraints[row].rate.is_none()).collect()
+    }
+
     /// The checks that parameters alone decide.
     pub fn known_checks(&self) -> impl Iterator<Item = &Check> {
         self.checks.iter().filter(|check| self.arena.stage(check.value) == Stage::Parameter)

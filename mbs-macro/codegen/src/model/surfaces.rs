@@ -128,7 +128,7 @@ fn incomplete(name: &Ident, found: usize, expected: usize) -> String {
     )
 }
 
-/// What is outside of a grid, which ends with its first line again along an argument that is periodic.
+/// A grid with its rules for outside. Along a periodic argument it ends with its first line again, which is taken away.
 fn closed(table: &Table, mut grid: Grid, beyond: &[Beyond; 2]) -> Result<(Grid, [Outside; 2]), Diagnostic> {
     let mut outside = [Outside::Hold; 2];
     for (axis, (beyond, outside)) in beyond.iter().zip(&mut outside).enumerate() {

@@ -24,9 +24,8 @@ pub(super) fn correction(
     (samples, inputs): (&Samples, &Inputs),
     of_velocities: bool,
 ) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
-    // no position violates an equation between rates
-    let is_solved = |&at: &usize| of_velocities || model.constraints[at].rate.is_none();
-    let rows = &Rows { basis: rows.basis.iter().copied().filter(is_solved).collect(), ..rows.clone() };
+    let basis = if of_velocities { rows.basis.clone() } else { model.of_positions(&rows.basis) };
+    let rows = &Rows { basis, ..rows.clone() };
     let held = held(model, equations, rows, samples, of_velocities);
     let kkt = system(model, equations, rows, &held);
     let factorization = match factor(&mut model.arena, &kkt, strategy) {

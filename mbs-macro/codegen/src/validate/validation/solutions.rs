@@ -98,8 +98,7 @@ impl Point<'_> {
             same("feedback", &values[s..s + own.len()], &fed_back)?;
         }
         let rows = &plan.rows.basis;
-        let is_of_positions = |row: &&usize| self.model.constraints[**row].rate.is_none();
-        let of_positions: Vec<usize> = rows.iter().filter(is_of_positions).copied().collect();
+        let of_positions = self.model.of_positions(rows);
         for (function, rows) in [
             (FunctionId::PositionCorrection, &of_positions),
             (FunctionId::VelocityCorrection, rows),
