@@ -122,6 +122,9 @@ fn non_finite<T: Real>(t: T, components: &[T], name: impl Fn(usize) -> &'static 
 pub(crate) fn check_inputs<T: Real>(info: &Info, inputs: &[T]) -> Result<(), Error> {
     let Some((at, value)) = vectors::first_non_finite(inputs) else { return Ok(()) };
     let name = info.inputs.get(at).map_or("", |input| input.name);
+    if at >= info.free_inputs().len() {
+        return Err(Error::Sample { memory: name, value: value.to_f64() });
+    }
     Err(Error::Input { name, value: value.to_f64() })
 }
 

@@ -108,6 +108,8 @@ impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
         Equations::next_corner(t: f64) -> f64;
         Equations::switching() -> &'static [Switch];
         Equations::switches(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
+        Equations::clock(clock: usize) -> [f64; 2];
+        Equations::sample(at: At<'_, f64>, inputs: &mut [f64], clock: usize);
         Equations::kinetic_energy(at: At<'_, f64>) -> f64;
     }
 }

@@ -13,6 +13,7 @@ pub use crate::differentiable::{Differentiable, Differentiated, PARTIALS, Partia
 pub use crate::reach::reach;
 pub use crate::room::Room;
 pub use crate::run::{Correction, Run, check_outputs, correction};
+pub use crate::samples::Grid;
 pub use crate::simulation::clock::steps_to;
 pub use crate::start::assembly::{assemble, consistent, project_velocities};
 pub use crate::start::consistency::check;
@@ -109,6 +110,12 @@ pub trait Equations<T: Real> {
     /// Writes those values.
     fn switches(&self, _at: At<'_, T>, _inputs: &[T], _values: &mut [T]) {}
 
+    /// The period and the offset of a clock in s; see [`Mechanism::clock`].
+    fn clock(&self, clock: usize) -> [T; 2];
+
+    /// Sets the memories of a clock, which stand behind the inputs; see [`Mechanism::sample`].
+    fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize);
+
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: At<'_, T>) -> T;
 
@@ -131,6 +138,16 @@ impl<M: Mechanism> Equations<M::Real> for M {
 
     fn switches(&self, at: At<'_, M::Real>, inputs: &[M::Real], values: &mut [M::Real]) {
         Mechanism::switches(self, &at.state(), &read(inputs), values);
+    }
+
+    fn clock(&self, clock: usize) -> [M::Real; 2] {
+        Mechanism::clock(self, clock)
+    }
+
+    fn sample(&self, at: At<'_, M::Real>, inputs: &mut [M::Real], clock: usize) {
+        let mut own = read(inputs);
+        Mechanism::sample(self, &at.state(), &mut own, clock);
+        write(own, inputs);
     }
 
     fn info(&self) -> &Info {

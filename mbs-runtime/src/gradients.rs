@@ -38,7 +38,7 @@ impl Variable {
         let (what, name, quantities) = match self {
             Self::Parameter(name) => ("parameter", name, info.parameters),
             Self::Position(name) | Self::Velocity(name) => ("coordinate", name, info.coordinates),
-            Self::Input { name, .. } => ("input", name, info.inputs),
+            Self::Input { name, .. } => ("input", name, info.free_inputs()),
         };
         let found = quantities.iter().position(|quantity| quantity.name == name);
         found.ok_or(Error::NoVariable { what, name })

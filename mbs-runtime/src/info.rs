@@ -14,7 +14,8 @@ pub struct Info {
     pub dof: i32,
     /// The parameters; `default` is the declared value.
     pub parameters: &'static [Quantity],
-    /// The inputs; `default` is the declared value, with which every run begins, 0 without one.
+    /// The inputs; `default` is the declared value, with which every run begins, 0 without one. The last ones may be
+    /// memories, which the mechanism sets itself; see [`sampling`](Self::sampling).
     pub inputs: &'static [Quantity],
     /// The coordinates of bodies, and behind them the states of the declaration's own; `default` is the
     /// declared start.
@@ -45,8 +46,38 @@ pub struct Info {
     pub pivots: &'static [Pivot],
     /// The pivots of the corrections of a start that can vanish.
     pub start_pivots: &'static [Pivot],
+    /// The clocks, and the memories among the inputs that they set.
+    pub sampling: Sampling,
     /// Operation counts of the generated functions.
     pub functions: &'static [Function],
+}
+
+/// The clocks of a mechanism, and the memories that they set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sampling {
+    /// How many of the inputs, at their end, are memories: the mechanism sets them, and no program.
+    pub memories: usize,
+    /// How many clocks there are.
+    pub clocks: usize,
+    /// Of every value that a sample gives, its clock and its memory, by its place among the inputs.
+    pub samples: &'static [[usize; 2]],
+}
+
+impl Sampling {
+    /// A mechanism without clocks.
+    pub const NONE: Self = Self { memories: 0, clocks: 0, samples: &[] };
+
+    /// Sets inputs to what a program gives; memories stay.
+    pub(crate) fn set_inputs<T: Copy>(&self, own: &mut [T], given: &[T]) {
+        let count = own.len().saturating_sub(self.memories);
+        own.iter_mut().zip(given).take(count).for_each(|(own, given)| *own = *given);
+    }
+
+    /// Sets memories to those among some inputs.
+    pub(crate) fn set_memories<T: Copy>(&self, own: &mut [T], given: &[T]) {
+        let count = own.len().saturating_sub(self.memories);
+        own.iter_mut().zip(given).skip(count).for_each(|(own, given)| *own = *given);
+    }
 }
 
 /// A named physical quantity.
@@ -233,10 +264,32 @@ impl Info {
         self.states.len() < self.coordinates.len()
     }
 
+    /// The inputs that a program sets: all but the memories.
+    pub fn free_inputs(&self) -> &'static [Quantity] {
+        let count = self.inputs.len().saturating_sub(self.sampling.memories);
+        self.inputs.get(..count).unwrap_or_default()
+    }
+
+    /// The memories, which clocks set.
+    pub fn memories(&self) -> &'static [Quantity] {
+        self.inputs.get(self.free_inputs().len()..).unwrap_or_default()
+    }
+
     /// Refuses equations between rates, for a method.
     pub(crate) fn refuse_rates(&self, method: &'static str) -> Result<(), Error> {
         match self.constraints.iter().find(|row| row.is_rate) {
             Some(row) => Err(Error::Rates { method, constraint: row.name }),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses memories that clocks set, for what knows none.
+    ///
+    /// # Errors
+    /// [`Error::Clocks`].
+    pub fn refuse_clocks(&self, what: &'static str) -> Result<(), Error> {
+        match self.memories().first().filter(|_| self.sampling.clocks > 0) {
+            Some(memory) => Err(Error::Clocks { what, memory: memory.name }),
             None => Ok(()),
         }
     }
@@ -266,6 +319,7 @@ impl Info {
         kept: [&'static [usize]; 2],
         pivots: &'static [Pivot],
         start_pivots: &'static [Pivot],
+        sampling: Sampling,
         functions: &'static [Function],
     ) -> Self {
         Self {
@@ -285,6 +339,7 @@ impl Info {
             kept,
             pivots,
             start_pivots,
+            sampling,
             functions,
         }
     }

@@ -149,6 +149,7 @@ mod real;
 pub mod reverse;
 mod room;
 mod run;
+mod samples;
 mod simulation;
 mod sincos;
 pub mod sketch;
@@ -174,7 +175,7 @@ pub use derivation::{Derivation, Elimination, Formula};
 pub use dual::Dual;
 pub use error::Error;
 pub use info::{
-    Constraint, DeclaredEvent, Dimension, Direction, Function, Info, Operations, Pivot, Quantity,
+    Constraint, DeclaredEvent, Dimension, Direction, Function, Info, Operations, Pivot, Quantity, Sampling,
 };
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;

@@ -333,6 +333,14 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// Writes the values of [`SWITCHES`](Self::SWITCHES).
     fn switches(&self, _at: &State<Self::Coordinates>, _inputs: &Self::Inputs, _values: &mut [Self::Real]) {}
 
+    /// The period and the offset of a clock in s: it samples at the times offset + k period, k whole.
+    fn clock(&self, _clock: usize) -> [Self::Real; 2] {
+        [Self::Real::from_f64(f64::NAN); 2]
+    }
+
+    /// Sets the memories of a clock as they are from a sample at this state on.
+    fn sample(&self, _at: &State<Self::Coordinates>, _inputs: &mut Self::Inputs, _clock: usize) {}
+
     /// The declared outputs, given q̈ and λ.
     fn outputs(
         &self,

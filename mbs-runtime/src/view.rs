@@ -1,6 +1,6 @@
 //! A mechanism seen in one state.
 
-use crate::diagnosis::{Solution, check_defined, check_solution};
+use crate::diagnosis::{Solution, check_defined, check_inputs, check_solution};
 use crate::equations::{At, check_outputs};
 use crate::{Dynamics, Error, vectors};
 
@@ -28,8 +28,10 @@ impl<D: Dynamics> View<'_, D> {
         let info = mechanism.info();
         let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
         let name = |row| info.constraint_name(row);
-        check_solution(&solution, || mechanism.worst_pivot(t, q))?;
-        check_defined(t, "the multiplier of constraint", multipliers, name)
+        check_solution(&solution, || mechanism.worst_pivot(t, q))
+            .and_then(|()| check_defined(t, "the multiplier of constraint", multipliers, name))
+            // an input that is not finite is the cause of whatever failed after it
+            .map_err(|error| self.with_inputs(|inputs| check_inputs(info, inputs)).err().unwrap_or(error))
     }
 
     /// See [`System::outputs`](crate::System::outputs).

@@ -4,7 +4,9 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_runtime::equations::{At, Equations, Preparation, Room, Start, check, consistent, project, reach};
-use mbs_runtime::{Constraint, Dimension, Error, Gains, Info, Pivot, Quantity, Simulation, mechanism, start};
+use mbs_runtime::{
+    Constraint, Dimension, Error, Gains, Info, Pivot, Quantity, Sampling, Simulation, mechanism, start,
+};
 
 mechanism! {
     /// One of them.
@@ -71,6 +73,7 @@ impl Pendulums {
             [&[], &[]],
             pivots,
             pivots,
+            Sampling::NONE,
             &[],
         );
         Self { lengths: lengths.to_vec(), info }
@@ -113,6 +116,11 @@ impl Equations<f64> for Pendulums {
             phi_dot[i] = (q[2 * i] * v[2 * i] + q[2 * i + 1] * v[2 * i + 1]) / l;
         }
     }
+    // no clocks
+    fn clock(&self, _: usize) -> [f64; 2] {
+        [f64::NAN; 2]
+    }
+    fn sample(&self, _: At<'_, f64>, _: &mut [f64], _: usize) {}
     fn complete(&self, states: At<'_, f64>, q: &mut [f64], v: &mut [f64]) {
         q.copy_from_slice(states.q);
         v.copy_from_slice(states.v);

@@ -32,7 +32,28 @@ Pendulum {
 }
 """
 
-MECHANISMS = ["slider-crank", "slider-crank-free", "cam-follower", "tipper", "n-pendulum-40", "pendulum-reduced"]
+# memories that are called as outputs, and a clock that begins elsewhere
+SAMPLED = """
+/// A slide that two clocks push.
+Sampled {
+    dof = 1;
+    input target [m] = 0.1;
+    body slide (x) { mass = 1 [kg]; }
+    memory push [N] = 0;
+    memory count [1] = 0;
+    every 20 [ms] offset 0.35 [s] {
+        set count = count + 1;
+        set push = 40 [N/m]*(target - x) - 8 [N*s/m]*der(x);
+    }
+    every 10 [ms] { set push = 0.9*push; }
+    force motor on x = push;
+    output push [N] = push;
+    output count = count;
+    output left [m] = target - x;
+}
+"""
+
+MECHANISMS = ["slider-crank", "slider-crank-free", "cam-follower", "tipper", "n-pendulum-40", "pendulum-reduced", "sampled"]
 
 
 class Export:
@@ -48,6 +69,9 @@ class Export:
             pathlib.Path(self.model).write_text(PENDULUM)
             # a run of the program that looks for events takes steps as long as it likes
             pathlib.Path(self.native_model).write_text(re.sub(" *event.*\n", "", PENDULUM))
+        if name == "sampled":
+            self.model = self.native_model = str(folder / "sampled.mbs")
+            pathlib.Path(self.model).write_text(SAMPLED)
         command("export", "fmu", self.model, "--out", str(folder), "--step", f"{self.step}", "--end", "0.2s")
         self.paths = {version: next(folder.glob(f"*_fmi{version}.fmu")) for version in (2, 3)}
 

@@ -71,6 +71,8 @@ def test_model_exchange_comes_to_the_same_motion(export, version):
         )
         for kind in ("CoSimulation", "ModelExchange")
     ]
+    # at a sample there is a row before it and one behind it
+    runs = [run[[*(run["time"][1:] > run["time"][:-1]), True]] for run in runs]
     for name in states:
         span = max(abs(runs[0][name])) + 1.0
         assert max(abs(runs[0][name] - runs[1][name])) < 2e-5 * span, name

@@ -57,6 +57,10 @@ pub enum Results {
     Corners,
     /// One number per switch.
     Switches,
+    /// Period and offset of every clock.
+    Clocks,
+    /// One number per memory that a clock sets.
+    Samples,
     /// Two numbers per point.
     Points,
     /// One number.
@@ -80,6 +84,8 @@ pub enum Property {
     Whole,
     /// It exists only where a force depends on positions or velocities.
     Stiff,
+    /// It exists only where clocks sample.
+    Sampled,
     /// Runs to a tolerance call it, and nobody else: other languages do not have it.
     Adaptive,
 }
@@ -126,7 +132,7 @@ macro_rules! functions {
     };
 }
 
-use Property::{Adaptive, Counted, Method, Stiff, Tangent, Transposed, Whole};
+use Property::{Adaptive, Counted, Method, Sampled, Stiff, Tangent, Transposed, Whole};
 
 functions! {
     /// The values that depend on parameters alone.
@@ -178,6 +184,10 @@ functions! {
     Corners = "corners"() -> [result: Corners], [Adaptive, Whole];
     /// The values at whose knots forces, constraints or events bend or jump, beside those of time alone.
     Switches = "switches"(Time, Positions, Velocities, Inputs) -> [result: Switches], [Adaptive, Whole];
+    /// The period and the offset of every clock in s.
+    Clocks = "clocks"() -> [result: Clocks], [Sampled, Whole];
+    /// What every clock sets its memories to, one clock after the other.
+    Samples = "samples"(Time, Positions, Velocities, Inputs) -> [result: Samples], [Counted, Sampled];
     /// The values that the conditions of the parameters judge.
     Conditions = "conditions"() -> [result: Conditions], [Whole];
     /// The declared start, before guesses are corrected. Returns its time.

@@ -229,6 +229,8 @@ impl<D: Dynamics> Equations<D::Real> for Driven<D> {
         kinetic_energy(at: At<'_, D::Real>) -> D::Real;
         states(all: &[D::Real], states: &mut [D::Real]);
         switching() -> &'static [Switch];
+        clock(clock: usize) -> [D::Real; 2];
+        sample(at: At<'_, D::Real>, inputs: &mut [D::Real], clock: usize);
     }
 }
 

@@ -202,7 +202,7 @@ pub fn no_index(kind: Kind, index: usize, count: usize) -> Failure {
 fn entries(kind: Kind, info: &Info, points: &[&str]) -> Vec<Entry> {
     match kind {
         Kind::Parameter => info.parameters.iter().map(declared).collect(),
-        Kind::Input => info.inputs.iter().map(declared).collect(),
+        Kind::Input => info.free_inputs().iter().map(declared).collect(),
         Kind::Coordinate => {
             let (places, states) = info.coordinates.split_at(info.lines.min(info.coordinates.len()));
             places.iter().map(place).chain(states.iter().map(declared)).collect()

@@ -86,7 +86,7 @@ impl Run {
     /// # Errors
     /// There is none with this index; it is not finite.
     pub fn set_input(&mut self, index: usize, value: f64) -> Result<(), Failure> {
-        if let (Some(input), false) = (self.info().inputs.get(index), value.is_finite()) {
+        if let (Some(input), false) = (self.info().free_inputs().get(index), value.is_finite()) {
             return Err(Error::Input { name: input.name, value }.into());
         }
         set(Kind::Input, &mut self.settings.inputs, index, value)?;

@@ -114,6 +114,24 @@ impl<T: Real> Equations<T> for Live<T> {
         next_corner(t, lines.as_chunks().0, corners)
     }
 
+    fn clock(&self, clock: usize) -> [T; 2] {
+        let mut times = vec![T::from_f64(f64::NAN); 2 * self.declared_info().sampling.clocks];
+        self.call(FunctionId::Clocks, &Arguments::default(), [&mut times]);
+        times.as_chunks().0.get(clock).copied().unwrap_or([T::from_f64(f64::NAN); 2])
+    }
+
+    fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize) {
+        let samples = self.declared_info().sampling.samples;
+        let mut values = vec![T::from_f64(f64::NAN); samples.len()];
+        let given = Arguments { inputs: single(inputs), ..state(at) };
+        self.call(FunctionId::Samples, &given, [&mut values]);
+        for (&[of, memory], value) in samples.iter().zip(values) {
+            if let Some(input) = inputs.get_mut(memory).filter(|_| of == clock) {
+                *input = value;
+            }
+        }
+    }
+
     fn kinetic_energy(&self, at: At<'_, T>) -> T {
         let mut energy = [T::from_f64(f64::NAN)];
         self.call(FunctionId::KineticEnergy, &state(at), [&mut energy]);

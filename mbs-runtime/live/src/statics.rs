@@ -13,7 +13,7 @@ use mbs_codegen::compiled::{self, Count, Crossing};
 use mbs_runtime::__private::{Segment, Spline};
 use mbs_runtime::{
     Constraint, DeclaredEvent, Derivation, Dimension, Direction, Function, Info, Knots, Operations, Pivot,
-    Quantity, Sketch, Switch,
+    Quantity, Sampling, Sketch, Switch,
 };
 use mbs_symbolic::{Block, units};
 
@@ -107,8 +107,13 @@ fn info(compiled: &Compiled) -> Info {
         compiled.kept.each_ref().map(|kept| leak(kept.iter().copied())),
         leak(compiled.pivots.iter().map(pivot)),
         leak(compiled.start_pivots.iter().map(pivot)),
+        sampling(&compiled.sampling),
         leak(compiled.counts().into_iter().map(|count| function(compiled, &count))),
     )
+}
+
+fn sampling(compiled::Sampling { memories, clocks, samples }: &compiled::Sampling) -> Sampling {
+    Sampling { memories: *memories, clocks: *clocks, samples: leak(samples.iter().copied()) }
 }
 
 fn knots(compiled::Knots { at, period }: &compiled::Knots) -> Knots {

@@ -23,6 +23,7 @@ pub fn derivation(derivation: &compiled::Derivation) -> Derivation {
         mass: some(&derivation.mass),
         forces: some(&derivation.forces),
         rates: some(&derivation.rates),
+        samples: leak(derivation.samples.iter().map(formula)),
         kinetic_energy: formula(&derivation.kinetic_energy),
         potential_energy: formula(&derivation.potential_energy),
         strategy: derivation.strategy,

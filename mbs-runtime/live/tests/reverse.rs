@@ -22,7 +22,7 @@ fn library() -> Vec<Live> {
     with(|source| source)
 }
 
-/// The same of changed sources.
+/// The same of changed sources, but for those whose clocks no way leads back through.
 fn with(change: impl Fn(String) -> String) -> Vec<Live> {
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src");
     let mut found = Vec::new();
@@ -33,7 +33,10 @@ fn with(change: impl Fn(String) -> String) -> Vec<Live> {
         let source = source.replace("$(#[$($attribute)*])*", "").replace("$Name", "Chain").replace("$n", "6");
         if source.contains("mechanism! {") && !path.ends_with("lib.rs") {
             let text = Text::rust(path.display().to_string(), change(source));
-            found.push(text.compile_with_transposes().unwrap());
+            let live = text.compile_with_transposes().unwrap();
+            if live.declared_info().sampling.clocks == 0 {
+                found.push(live);
+            }
         }
     }
     assert!(found.len() > 30, "{}", found.len());

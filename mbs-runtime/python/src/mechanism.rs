@@ -88,7 +88,8 @@ impl Mechanism {
         found.set_item("doc", info.doc)?;
         found.set_item("dof", info.dof)?;
         found.set_item("parameters", described(info.parameters, Unit::of))?;
-        found.set_item("inputs", described(info.inputs, Unit::of))?;
+        found.set_item("inputs", described(info.free_inputs(), Unit::of))?;
+        found.set_item("memories", described(info.memories(), Unit::of))?;
         let (coordinates, states) = info.coordinates.split_at(info.lines.min(info.coordinates.len()));
         found.set_item("coordinates", described(coordinates, Unit::of_coordinate))?;
         found.set_item("states", described(states, Unit::of))?;

@@ -20,6 +20,8 @@ pub struct Stepped {
     run: Box<dyn SystemClone>,
     /// The time at which it started, in s.
     start_time: f64,
+    /// True if it goes on with another run, whose samples have been taken.
+    goes_on: bool,
     /// The inputs of the next step, in SI units.
     pub inputs: Vec<f64>,
     /// Those of the last one.
@@ -32,10 +34,11 @@ pub struct Stepped {
 
 impl Clone for Stepped {
     fn clone(&self) -> Self {
-        let Self { run, start_time, inputs, held, q, v, units } = self;
+        let Self { run, start_time, goes_on, inputs, held, q, v, units } = self;
         Self {
             run: run.boxed_clone(),
             start_time: *start_time,
+            goes_on: *goes_on,
             inputs: inputs.clone(),
             held: held.clone(),
             q: q.clone(),
@@ -52,8 +55,9 @@ impl Stepped {
         let n = info.coordinates.len();
         let units = Signal::states(info).iter().map(|signal| Unit::of_signal(info, signal)).collect();
         let start_time = start.state.as_ref().map_or_else(|| run.time(), |state| state.start_time);
+        let goes_on = start.state.as_ref().is_some_and(|state| state.steps_taken > 0);
         let (inputs, held) = (start.inputs.clone(), start.inputs.clone());
-        Ok(Self { run, start_time, inputs, held, q: vec![f64::NAN; n], v: vec![f64::NAN; n], units })
+        Ok(Self { run, start_time, goes_on, inputs, held, q: vec![f64::NAN; n], v: vec![f64::NAN; n], units })
     }
 
     /// The run that was where it is saved. One that has a constant step goes on to the same bits.
@@ -68,9 +72,17 @@ impl Stepped {
         self.see();
         // a run to a tolerance counts samples from where it begins
         let is_sampled = self.run.effort().is_some();
-        let (start_time, steps) =
-            if is_sampled { (self.run.time(), 0) } else { (self.start_time, self.run.steps()) };
-        (start_time, steps, self.q.clone(), self.v.clone(), self.inputs.clone())
+        let start_time = if is_sampled { self.run.time() } else { self.start_time };
+        let mut inputs = self.inputs.clone();
+        let steps = self.run.steps().max(u64::from(self.goes_on));
+        // a run at its start takes its first samples anew
+        if steps > 0 {
+            let mut now = inputs.clone();
+            self.run.inputs(&mut now);
+            let free = self.run.equations().info().free_inputs().len();
+            inputs.iter_mut().zip(now).skip(free).for_each(|(memory, now)| *memory = now);
+        }
+        (start_time, steps, self.q.clone(), self.v.clone(), inputs)
     }
 
     fn see(&mut self) {
@@ -126,7 +138,7 @@ impl Ports {
     /// Those of a mechanism.
     pub fn of(info: &'static Info) -> Self {
         let units = |quantities: &[mbs_runtime::Quantity]| quantities.iter().map(Unit::of).collect();
-        Self { info, inputs: units(info.inputs), outputs: units(info.outputs) }
+        Self { info, inputs: units(info.free_inputs()), outputs: units(info.outputs) }
     }
 
     /// Takes inputs in SI units from Python: a number, numbers in their order, or numbers and texts by name.
@@ -148,7 +160,7 @@ impl Ports {
 
     fn set_one(&self, name: &str, value: &Bound<'_, PyAny>, inputs: &mut [f64]) -> PyResult<()> {
         let py = value.py();
-        let known = self.info.inputs;
+        let known = self.info.free_inputs();
         let Some(at) = known.iter().position(|input| input.name == name) else {
             return Err(error::of(py, &Error::unknown("input", name, known.iter().map(|input| input.name))));
         };
@@ -165,7 +177,7 @@ impl Ports {
     }
 
     fn set_all(&self, numbers: &[f64], given: &Bound<'_, PyAny>, inputs: &mut [f64]) -> PyResult<()> {
-        if numbers.len() != inputs.len() {
+        if numbers.len() != self.inputs.len() {
             return Err(self.wrong(given));
         }
         for (at, (to, from)) in inputs.iter_mut().zip(numbers).enumerate() {
@@ -193,7 +205,7 @@ impl Ports {
         let found = given.get_type().name().map_or_else(|_| "that".to_owned(), |name| name.to_string());
         let found = given.len().map_or(found.clone(), |count| format!("{found} of {count}"));
         let name = self.info.name;
-        let names: Vec<&str> = self.info.inputs.iter().map(|input| input.name).collect();
+        let names: Vec<&str> = self.info.free_inputs().iter().map(|input| input.name).collect();
         PyTypeError::new_err(match &names[..] {
             [] => format!("{name} has no inputs, so its steps take none"),
             [input] => {

@@ -22,6 +22,8 @@ pub struct AdaptiveBuilder<D: Dynamics, S: AdaptiveScheme = Dopri5> {
     beginning: Beginning<D>,
     tolerances: Tolerances,
     most_steps: u64,
+    /// True if the samples at the start have been taken.
+    goes_on: bool,
     scheme: PhantomData<S>,
 }
 
@@ -30,7 +32,7 @@ impl<D: Dynamics> Adaptive<D> {
     /// pair 5(4) of Dormand and Prince, the default [`Tolerances`] and inputs.
     pub fn builder(mechanism: D) -> AdaptiveBuilder<D> {
         let (beginning, tolerances) = (Beginning::new(mechanism), Tolerances::default());
-        AdaptiveBuilder { beginning, tolerances, most_steps: u64::MAX, scheme: PhantomData }
+        AdaptiveBuilder { beginning, tolerances, most_steps: u64::MAX, goes_on: false, scheme: PhantomData }
     }
 }
 
@@ -39,8 +41,8 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
     /// [`Dopri5`] or [`Dop853`](crate::Dop853) for fine ones, from about 10⁻⁸ on.
     #[must_use]
     pub fn scheme<R: AdaptiveScheme>(self) -> AdaptiveBuilder<D, R> {
-        let Self { beginning, tolerances, most_steps, .. } = self;
-        AdaptiveBuilder { beginning, tolerances, most_steps, scheme: PhantomData }
+        let Self { beginning, tolerances, most_steps, goes_on, .. } = self;
+        AdaptiveBuilder { beginning, tolerances, most_steps, goes_on, scheme: PhantomData }
     }
 
     /// The tolerances.
@@ -84,6 +86,13 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
         self
     }
 
+    /// Goes on with a run that was at this state: its clocks have taken the samples that are due there, and the given
+    /// inputs have the memories of it.
+    #[must_use]
+    pub fn goes_on(self) -> Self {
+        Self { goes_on: true, ..self }
+    }
+
     /// Starts.
     ///
     /// # Errors
@@ -93,7 +102,7 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
         let scheme = S::WORD;
         let estimate = S::ESTIMATE.ok_or(Error::NoEstimate { scheme })?;
         self.tolerances.check::<D::Real>()?;
-        let Self { mut beginning, tolerances, most_steps, .. } = self;
+        let Self { mut beginning, tolerances, most_steps, goes_on, .. } = self;
         let length = beginning.prepare::<S::Explicit>(NOMINAL_STEP)?;
         let Beginning { dynamics, inputs, state: (t, q, v), .. } = beginning;
         let (states, rates) = (dynamics.states(&q), dynamics.states(&v));
@@ -118,9 +127,12 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
             effort: Effort::default(),
             progress: Progress::new(),
             switching: Switching::new(),
+            sampled: None,
             happened: Happened { is_set: true, ..Happened::default() },
             happened_before: Happened::default(),
         };
+        run.sampled = goes_on.then_some(run.now.t);
+        run.sample(false);
         run.solve()?;
         run.before = run.now.clone();
         if run.tolerances.first_step.is_none() {

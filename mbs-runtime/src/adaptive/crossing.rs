@@ -330,6 +330,6 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 }
 
 /// The watched values with their bits.
-fn bits(count: usize) -> impl Iterator<Item = (usize, u64)> {
+pub(super) fn bits(count: usize) -> impl Iterator<Item = (usize, u64)> {
     (0..count).zip((0..).map_while(|at| 1_u64.checked_shl(at)))
 }

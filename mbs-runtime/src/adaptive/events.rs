@@ -80,6 +80,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             return Err(Error::EndTime { end, now: self.now.t.to_f64() });
         }
         loop {
+            self.sample_and_look(self.now.t < last, watched);
             if let Some(event) = self.due() {
                 return Ok(Some(event));
             }
@@ -147,6 +148,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         limit: D::Real,
         watched: &mut Watched<'_, D>,
     ) -> Result<Option<Event>, Error> {
+        self.sample_and_look(true, watched);
         if let Some(event) = self.due() {
             return Ok(Some(event));
         }

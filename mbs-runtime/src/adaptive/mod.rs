@@ -14,6 +14,7 @@ mod between;
 mod builder;
 mod cause;
 mod change;
+mod clocks;
 mod control;
 mod crossing;
 mod dense;
@@ -133,6 +134,8 @@ pub struct Adaptive<D: Dynamics, S: AdaptiveScheme = Dopri5> {
     effort: Effort,
     progress: Progress<D::Real>,
     switching: Switching,
+    /// When clocks sampled last.
+    sampled: Option<D::Real>,
     /// Events at the present time.
     happened: Happened,
     /// Events at the start of the last step.
@@ -149,7 +152,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// [`Error::OutOfReach`], [`Error::NonFinite`], [`Error::Input`], [`Error::TooManySteps`] where a bound was
     /// asked for. The state stays that of the last good step.
     pub fn step(&mut self) -> Result<(), Error> {
-        self.step_to(D::Real::from_f64(f64::INFINITY))
+        self.step_to(D::Real::from_f64(f64::INFINITY))?;
+        self.sample(true);
+        Ok(())
     }
 
     /// Takes steps until `end` seconds, the last one of which ends there. It does not change how
@@ -165,14 +170,16 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         while self.now.t < last {
             self.step_to(last)?;
         }
+        self.sample(false);
         Ok(())
     }
 
     /// A step that ends at `limit` at the latest, and at the first corner of the accelerations. Where it is
     /// cut short, the next one is not.
     fn step_to(&mut self, limit: D::Real) -> Result<(), Error> {
+        self.sample(true);
         let (next, rejected) = (self.control.next, self.effort.rejected);
-        let corner = self.dynamics.next_corner(self.now.t);
+        let corner = self.next_corner();
         let limit = if corner < limit { corner } else { limit };
         self.step_within(limit)?;
         self.look_at_switches(self.effort.rejected != rejected)?;

@@ -176,9 +176,14 @@ impl<D: Dynamics, S: AdaptiveScheme> Sampled<D, S> {
 
     /// A step of the run, which ends at its first event, and at the end of the run.
     fn run_on(&mut self) -> Result<Option<Event>, Error> {
-        let Self { run, threshold, end, .. } = self;
-        let end = end.map_or(f64::INFINITY, |(end, _)| end);
-        let ahead = D::Real::from_f64(if end > run.now.t.to_f64() { end } else { f64::INFINITY });
+        let end = self.end.map_or(f64::INFINITY, |(end, _)| end);
+        let ahead = D::Real::from_f64(if end > self.run.now.t.to_f64() { end } else { f64::INFINITY });
+        self.watch(|run, watched| run.step_or_event(ahead, watched))
+    }
+
+    /// Does something with the run and the values that it watches.
+    fn watch<R>(&mut self, what: impl FnOnce(&mut Adaptive<D, S>, &mut Watched<'_, D>) -> R) -> R {
+        let Self { run, threshold, .. } = self;
         let events = run.dynamics.equations().info().events;
         let extra = threshold.filter(|_| events.len() < MOST_EVENTS);
         let direction = |index: usize| {
@@ -197,7 +202,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Sampled<D, S> {
             room: &mut [D::Real::from_f64(f64::NAN); MOST_EVENTS],
             is_declared: true,
         };
-        run.step_or_event(ahead, &mut watched)
+        what(run, &mut watched)
     }
 
     /// The run, which may be ahead of what is seen by a part of a step.
@@ -257,13 +262,16 @@ impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
 
     fn set_inputs(&mut self, inputs: &[D::Real]) {
         let Adaptive { dynamics, inputs: own, .. } = &mut self.run;
-        let is_new =
-            dynamics.with_inputs(own, |own| own.iter().zip(inputs).any(|(own, input)| !own.is_same(*input)));
+        let sampling = dynamics.equations().info().sampling;
+        let is_new = dynamics.with_inputs(own, |own| {
+            let free = own.len().saturating_sub(sampling.memories);
+            own.iter().zip(inputs).take(free).any(|(own, input)| !own.is_same(*input))
+        });
         if is_new {
             // with the inputs of the step that this moment lies in; it does, so that there is no error
             let _ = self.run.rewind_to(self.t.to_f64());
             let Adaptive { dynamics, inputs: own, .. } = &mut self.run;
-            dynamics.with_inputs(own, |own| vectors::copy(own, inputs));
+            dynamics.with_inputs(own, |own| sampling.set_inputs(own, inputs));
             self.ahead = None;
         }
     }
@@ -312,6 +320,9 @@ impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
                 self.run.look_between();
                 let (q, v) = self.run.interpolate(at)?;
                 self.put(at, &q, &v);
+                if self.run.now.t <= at {
+                    self.watch(|run, watched| run.sample_and_look(false, watched));
+                }
                 self.samples += 1;
                 self.pass_end();
                 return Ok(None);

@@ -84,6 +84,10 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
             is_solved: false,
             watch: Watch::new(length),
         };
+        run.grid().check(run.dynamics.equations())?;
+        if steps_taken == 0 {
+            run.sample();
+        }
         run.solve()?;
         assign(&mut run.now.a, &run.next.a);
         Ok(run)

@@ -22,7 +22,9 @@ use core::fmt;
 
 use crate::adaptive::{Moment, RISEN, cause, is_healthy};
 use crate::diagnosis::{check_inputs, singular};
+use crate::equations::At;
 use crate::run::note_risen;
+use crate::samples::Grid;
 use crate::simulation::clock;
 use crate::vectors::assign;
 use crate::watch::Watch;
@@ -90,7 +92,30 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
         copy_moment(now, next);
         self.steps += 1;
         self.complete();
+        self.sample();
         Ok(())
+    }
+
+    /// The steps, by which clocks are told.
+    fn grid(&self) -> Grid {
+        Grid { start: self.start_time, step: self.step.to_f64() }
+    }
+
+    /// Takes the samples that are due.
+    fn sample(&mut self) {
+        let (grid, steps) = (self.grid(), self.steps);
+        let Self { dynamics, inputs, now, all: [q, v], .. } = self;
+        let sampling = dynamics.equations().info().sampling;
+        if sampling.clocks == 0 {
+            return;
+        }
+        let at = At { t: now.t, q: q.as_ref(), v: v.as_ref() };
+        let mut present = dynamics.inputs_at(now.t, inputs);
+        dynamics.with_inputs(&mut present, |present| {
+            grid.sample(steps, dynamics.equations(), at, present);
+            dynamics.with_inputs(inputs, |own| sampling.set_memories(own, present));
+        });
+        self.is_solved = false;
     }
 
     /// All coordinates and velocities of the present state.

@@ -37,7 +37,8 @@ impl<D: Dynamics, K: Kernel<D>> System<D::Real> for ConstantStep<D, K> {
 
     fn set_inputs(&mut self, inputs: &[D::Real]) {
         let Self { dynamics, inputs: own, .. } = self;
-        dynamics.with_inputs(own, |own| vectors::copy(own, inputs));
+        let sampling = dynamics.equations().info().sampling;
+        dynamics.with_inputs(own, |own| sampling.set_inputs(own, inputs));
         self.is_solved = false;
     }
 

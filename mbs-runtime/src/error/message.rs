@@ -79,6 +79,30 @@ impl fmt::Display for Error {
                  is; leave the jump out, or put it where the value does not rest, as in `if x > 1e-6 [m]` for `if x > 0 [m]`",
                 t = Shown(t)
             ),
+            Self::Period { memory, period, offset, start, step, better } => {
+                write!(f, "the clock of `{memory}` samples every {} s", Plain(period))?;
+                if offset != 0.0 {
+                    write!(f, " from {} s on", Plain(offset))?;
+                }
+                write!(f, ", and no whole number of steps of {} s leads there", Plain(step))?;
+                if start != 0.0 {
+                    write!(f, " from the start at {} s", Plain(start))?;
+                }
+                f.write_str("; take ")?;
+                if better > 0.0 {
+                    write!(f, "steps of {} s, or ", Plain(better))?;
+                }
+                f.write_str("a run to a tolerance, whose steps end at samples")
+            }
+            Self::Sample { memory, value } => write!(
+                f,
+                "a sample has set the memory `{memory}` to {}; check the divisors and functions of its `set`",
+                Plain(value)
+            ),
+            Self::Clocks { what, memory } => write!(
+                f,
+                "{what} knows no clocks, and one sets the memory `{memory}`; simulate the mechanism"
+            ),
             Self::NotConverged { t, step } => write!(
                 f,
                 "the equations of the step from t = {t} s could not be solved; take a step shorter than {step} s; \

@@ -104,6 +104,35 @@ pub enum Error {
         /// The value, as people read it.
         name: &'static str,
     },
+    /// A step of which no whole number leads to a sample of a clock, or from one to the next.
+    Period {
+        /// A memory that the clock sets.
+        memory: &'static str,
+        /// The period in s.
+        period: f64,
+        /// The offset in s.
+        offset: f64,
+        /// The time of the start in s.
+        start: f64,
+        /// A step that leads to the samples, in s; 0 where none of many does.
+        better: f64,
+        /// The step in s.
+        step: f64,
+    },
+    /// A memory that a sample has set to no finite number.
+    Sample {
+        /// Its name.
+        memory: &'static str,
+        /// Infinite or NaN.
+        value: f64,
+    },
+    /// Memories, for what knows no clocks.
+    Clocks {
+        /// What it is.
+        what: &'static str,
+        /// A memory.
+        memory: &'static str,
+    },
     /// The equations of a step, of an implicit method or those that keep positions on the constraints, have no
     /// solution that is found.
     NotConverged {

@@ -10,7 +10,10 @@
     reason = "the compiler makes vectors of loops over indices, not of iterators over arrays"
 )]
 
+use core::borrow::Borrow;
+
 use super::{Each, Many, ManyStates};
+use crate::equations::Arrays;
 use crate::lanes::{Lane, Lanes};
 use crate::straight::Straight;
 use crate::watch::rise_after;
@@ -19,7 +22,7 @@ use crate::{Components, Gains, Mechanism, Method, Simulation, State};
 /// State by state, the lanes.
 type Array<M, const N: usize> = <ManyStates<M, N> as Components>::Array;
 
-/// The mechanisms and inputs of simulations, which do not change while these advance.
+/// The mechanisms and inputs of simulations, of which memories alone change while these advance.
 #[derive(Clone, Copy)]
 pub(super) struct Instances<M: Mechanism<Real: Lane>, const N: usize> {
     pub mechanism: Many<M, N>,
@@ -50,6 +53,35 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Instances<M, N> {
     #[inline(always)]
     pub fn inputs_of(&self, lane: usize) -> <Each<M> as Mechanism>::Inputs {
         take(&self.inputs, lane)
+    }
+}
+
+impl<M: Mechanism<Real: Lane>, const N: usize> Instances<M, N> {
+    /// The inputs in one lane, memories included.
+    #[inline]
+    pub fn scalar_inputs(&self, lane: usize) -> M::Inputs {
+        scalars_of(&self.inputs, lane)
+    }
+
+    /// And back.
+    pub fn put_inputs(&mut self, lane: usize, inputs: &[M::Real]) {
+        for (lanes, input) in self.inputs.as_mut().iter_mut().zip(inputs) {
+            lanes.0[lane] = *input;
+        }
+    }
+
+    /// Takes the memories over that simulations have come to.
+    pub fn take_memories<X: Method>(&mut self, members: [&Simulation<M, X>; N]) {
+        for lane in 0..N {
+            self.put_inputs(lane, members[lane].inputs().into_array().as_ref());
+        }
+    }
+
+    /// Gives a lane the inputs of another.
+    pub fn copy_inputs(&mut self, from: usize, to: usize) {
+        for lanes in self.inputs.as_mut() {
+            lanes.0[to] = lanes.0[from];
+        }
     }
 }
 
@@ -177,6 +209,46 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
         self.t.0[lane] = state.t.0;
         put(&mut self.q, lane, state.q);
         put(&mut self.v, lane, state.v);
+    }
+}
+
+/// How many steps lead to the next sample in any lane.
+#[inline(always)]
+pub(super) fn steps_to_sample<
+    M: Mechanism<Real: Lane>,
+    X: Method,
+    S: Borrow<Simulation<M, X>>,
+    const N: usize,
+>(
+    members: &[S; N],
+    now: &Moment<M, N>,
+) -> u64 {
+    if M::INFO.sampling.clocks == 0 {
+        return u64::MAX;
+    }
+    let left = members.iter().zip(now.steps.0).map(|(member, steps)| {
+        let member = member.borrow();
+        member.grid().steps_to_sample(steps as u64, member.mechanism())
+    });
+    left.min().unwrap_or(u64::MAX)
+}
+
+/// Takes the samples that are due, lane after lane.
+#[inline(always)]
+pub(super) fn sample<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M, X>>, const N: usize>(
+    members: &[S; N],
+    instances: &mut Instances<M, N>,
+    now: &Moment<M, N>,
+) {
+    if M::INFO.sampling.clocks == 0 {
+        return;
+    }
+    for lane in 0..N {
+        let member = members[lane].borrow();
+        let (mut inputs, state) = (instances.scalar_inputs(lane).into_array(), now.scalar_state(lane));
+        let state = Arrays::of(&member.mechanism().complete(&state));
+        member.grid().sample(now.steps.0[lane] as u64, member.mechanism(), state.at(), inputs.as_mut());
+        instances.put_inputs(lane, inputs.as_ref());
     }
 }
 

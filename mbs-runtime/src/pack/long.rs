@@ -3,7 +3,7 @@
 
 use core::borrow::Borrow;
 
-use super::instances::Moment;
+use super::instances::{Instances, Moment};
 use crate::explicit::{Span, Trial, trial};
 use crate::lanes::{Lane, Lanes};
 use crate::watch::Watch;
@@ -14,6 +14,7 @@ use crate::{Gains, Mechanism, Method, Real, Simulation, State, spare};
 #[inline(never)]
 pub(super) fn lane_after_lane<M, X, S, const N: usize>(
     members: &[S; N],
+    instances: &Instances<M, N>,
     watches: &[Watch<M::Real>; N],
     steps: u64,
     now: &mut Moment<M, N>,
@@ -26,10 +27,10 @@ pub(super) fn lane_after_lane<M, X, S, const N: usize>(
     for lane in 0..N {
         let member = members[lane].borrow();
         let (mechanism, gains, h) = (member.mechanism(), member.baumgarte().gains(), member.step_size());
-        let mut at = now.scalar_state(lane);
+        let (mut at, inputs) = (now.scalar_state(lane), instances.scalar_inputs(lane));
         for taken in 1..=steps {
             let t = member.start_time() + M::Real::from_f64(now.steps.0[lane] + taken as f64) * h;
-            let growth = step_in_place::<M, X>(mechanism, &mut at, member.inputs(), &gains, h, t);
+            let growth = step_in_place::<M, X>(mechanism, &mut at, &inputs, &gains, h, t);
             let spare = match M::INFO.redundant.is_empty() {
                 true => None,
                 false => Some(spare::margin(mechanism, &at, watches[lane].length)),

@@ -22,7 +22,7 @@ use crate::mechanism::is_fused_for;
 use crate::straight::Straight;
 use crate::watch::Watch;
 use crate::{Components, Mechanism, Method, Real, Simulation, State, spare};
-use instances::{Instances, Moment, Pace};
+use instances::{Instances, Moment, Pace, sample, steps_to_sample};
 use long::{lane_after_lane, step_in_place};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
@@ -141,7 +141,7 @@ where
         let (mut taken, mut good) = (0, steps);
         let mut stride = FIRST_STRIDE;
         while taken < good {
-            let next = stride.min(good - taken);
+            let next = stride.min(good - taken).min(steps_to_sample(&self.members, &self.now));
             if self.stride(next) {
                 taken += next;
             } else {
@@ -158,7 +158,7 @@ where
     /// The same, a step at a time, up to one after which `look` does not want more.
     #[inline(always)]
     pub fn advance_and_look(&mut self, steps: u64, mut look: impl FnMut(&Snapshot<'_, M, N>) -> bool) -> u64 {
-        let Self { instances, pace, watches, .. } = self;
+        let Self { members, instances, pace, watches, .. } = self;
         let mut now = self.now;
         let mut taken = 0;
         while taken < steps {
@@ -171,6 +171,7 @@ where
             }
             now = next;
             taken += 1;
+            sample(members, instances, &now);
             if !look(&Snapshot { instances, moment: &now }) {
                 break;
             }
@@ -188,7 +189,7 @@ where
         let mut now = self.now;
         let mut margin = Lanes::default();
         if !is_fused_for::<M, X>() && is_in_loops::<M>() {
-            lane_after_lane::<M, X, S, N>(members, watches, steps, &mut now, &mut margin);
+            lane_after_lane::<M, X, S, N>(members, instances, watches, steps, &mut now, &mut margin);
         } else {
             // a float, because the conversion of an integer would take as long as ten operations
             let mut taken = 0.0;
@@ -201,6 +202,7 @@ where
         let are_calm = is_calm(&margin, &now, watches);
         if are_calm {
             self.now = now;
+            sample(&self.members, &mut self.instances, &now);
         }
         are_calm
     }
@@ -212,6 +214,7 @@ where
         let mut members = from_fn(|lane| self.simulation(lane));
         let healthy = members.each_mut().map(|member| member.step().is_ok());
         self.now = Moment::of(members.each_ref());
+        self.instances.take_memories(members.each_ref());
         self.watches = members.each_ref().map(|member| *member.watch());
         healthy
     }
@@ -225,14 +228,18 @@ where
         let (mut members, mut watches) = (self.members, self.watches);
         members[to] = members[from];
         watches[to] = watches[from];
+        let inputs = self.instances.inputs;
         *self = Self { now, watches, ..Self::new(members) };
+        self.instances.inputs = inputs;
+        self.instances.copy_inputs(from, to);
     }
 
     /// The simulation in a lane, as it is now: the last one, beyond the last lane.
     pub fn simulation(&self, lane: usize) -> Simulation<M, X> {
         let lane = lane.min(N - 1);
         let watch = self.watches[lane].after_calm_steps(self.now.alarm.0[lane], self.now.worst.0[lane]);
-        self.members[lane].borrow().moved_to(self.now.scalar_state(lane), self.steps(lane), watch)
+        let at = (self.now.scalar_state(lane), self.instances.scalar_inputs(lane));
+        self.members[lane].borrow().moved_to(at, self.steps(lane), watch)
     }
 
     /// Time, positions and velocities in a lane: the last one, beyond the last lane.

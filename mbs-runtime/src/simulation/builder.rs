@@ -240,7 +240,7 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
         let length = preparation.prepare(equations, t, q.as_mut(), v.as_mut(), &mut room.room())?;
         let State { t, q, v } = Arrays { t, q, v }.state();
         let state = State { t, q: M::states(q), v: M::states(v) };
-        Ok(Simulation {
+        let mut simulation = Simulation {
             mechanism: self.mechanism,
             inputs: self.inputs,
             state,
@@ -250,7 +250,10 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
             start_time: state.t,
             steps: 0.0,
             watch: Watch::new(length),
-        })
+        };
+        simulation.grid().check(&simulation.mechanism)?;
+        simulation.sample();
+        Ok(simulation)
     }
 }
 

@@ -100,8 +100,13 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     }
 
     /// The same run, that many steps after its start.
-    pub(crate) fn moved_to(&self, state: State<M::States>, steps: u64, watch: Watch<M::Real>) -> Self {
-        Self { state, steps: steps as f64, watch, ..*self }
+    pub(crate) fn moved_to(
+        &self,
+        (state, inputs): (State<M::States>, M::Inputs),
+        steps: u64,
+        watch: Watch<M::Real>,
+    ) -> Self {
+        Self { state, inputs, steps: steps as f64, watch, ..*self }
     }
 
     pub(crate) fn watch(&self) -> &Watch<M::Real> {

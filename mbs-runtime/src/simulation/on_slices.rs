@@ -5,6 +5,7 @@ use super::Simulation;
 use crate::equations::Arrays;
 use crate::room::{OnStack, Room};
 use crate::run::Run;
+use crate::samples::Grid;
 use crate::{Components, Error, Mechanism, Method, Real, Scheme, State, spare};
 
 /// A function of a run and of vectors to compute with.
@@ -28,10 +29,17 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         what(&run, &mut OnStack::<M>::new().room_for_steps::<X::Scheme>(&mut stages))
     }
 
-    /// The step of mechanisms that have no other, and of those whose step was not calm:
-    /// it finds out what went wrong, if anything did. See [`Run::step`].
+    /// A step in stages, and the samples that are due at its end.
     #[doc(hidden)]
     pub fn step_in_stages(&mut self) -> Result<(), Error> {
+        self.step_by_stages()?;
+        self.sample();
+        Ok(())
+    }
+
+    /// The step of mechanisms that have no other, and of those whose step was not calm:
+    /// it finds out what went wrong, if anything did. See [`Run::step`].
+    pub(super) fn step_by_stages(&mut self) -> Result<(), Error> {
         // the run borrows what both belong to
         let (mut next, mut watch) = (Arrays::of(&self.state), self.watch);
         next.t = self.next_time();
@@ -40,6 +48,20 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         (self.state, self.watch) = (next.state(), watch);
         self.steps += 1.0;
         Ok(())
+    }
+
+    /// The steps, by which clocks are told.
+    pub(crate) fn grid(&self) -> Grid {
+        Grid { start: self.start_time.to_f64(), step: self.step.to_f64() }
+    }
+
+    /// Takes the samples that are due.
+    #[inline(never)]
+    pub(super) fn sample_clocks(&mut self) {
+        let mut inputs = self.inputs.into_array();
+        let state = Arrays::of(&self.state());
+        self.grid().sample(self.steps(), &self.mechanism, state.at(), inputs.as_mut());
+        self.inputs = Components::from_array(inputs);
     }
 
     /// Takes values and not references, so that what is healthy need not be in memory.

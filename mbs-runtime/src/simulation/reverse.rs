@@ -138,7 +138,7 @@ impl<M: Transposed<Real = f64>, X: Method> Reversible for Simulation<M, X> {
     }
 
     fn go_to(&mut self, step: u64, at: At<'_, f64>) {
-        *self = self.moved_to(at.state(), step, self.watch.anew());
+        *self = self.moved_to((at.state(), *self.inputs()), step, self.watch.anew());
     }
 
     fn forward(&mut self, function: Function, given: &Given<'_, f64>, results: &mut [&mut [f64]]) {

@@ -33,6 +33,14 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// [`step`](Self::step), always inlined into its caller.
     #[inline(always)]
     fn inlined_step(&mut self) -> Result<(), Error> {
+        self.step_between()?;
+        self.sample();
+        Ok(())
+    }
+
+    /// A step of which clocks know nothing.
+    #[inline(always)]
+    fn step_between(&mut self) -> Result<(), Error> {
         let t_next = self.next_time();
         let Self { mechanism, inputs, gains, step, watch, .. } = &*self;
         // Written so that a NaN fails the test. The state is stored from registers,
@@ -61,7 +69,15 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         if !is_fused_for::<M, X>() && self.step_unfused(t_next) {
             return Ok(());
         }
-        self.step_in_stages()
+        self.step_by_stages()
+    }
+
+    /// Takes the samples that are due.
+    #[inline(always)]
+    pub(super) fn sample(&mut self) {
+        if M::INFO.sampling.clocks > 0 {
+            self.sample_clocks();
+        }
     }
 
     /// The step of a method that has no program of its own, if it is calm.
@@ -124,6 +140,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
             self.state = fused.next;
             self.steps += 1.0;
             self.watch.note(fused.growth);
+            self.sample();
             return Ok(reactions);
         }
         let reactions = self.reactions()?;

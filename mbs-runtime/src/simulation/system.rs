@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::equations::{Described, read, write};
 use crate::mechanism::is_fused_for;
 use crate::watch::WorstPlace;
-use crate::{Error, Mechanism, Method, Reactions, System};
+use crate::{Components, Error, Mechanism, Method, Reactions, System};
 
 impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
     fn described(&self) -> &dyn Described<M::Real> {
@@ -26,7 +26,9 @@ impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
     }
 
     fn set_inputs(&mut self, inputs: &[M::Real]) {
-        *self.inputs_mut() = read(inputs);
+        let mut own = self.inputs().into_array();
+        M::INFO.sampling.set_inputs(own.as_mut(), inputs);
+        *self.inputs_mut() = Components::from_array(own);
     }
 
     fn step_size(&self) -> M::Real {

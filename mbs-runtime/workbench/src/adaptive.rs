@@ -129,8 +129,9 @@ where
         let Self { dynamics, tolerances, start } = self;
         let mut builder =
             Adaptive::builder(dynamics).scheme::<S>().tolerances(tolerances).inputs(start.inputs.clone());
-        if let Some(StartState { start_time, q, v, .. }) = start.state.clone() {
+        if let Some(StartState { start_time, steps_taken, q, v }) = start.state.clone() {
             builder = builder.from_vectors(start_time, q, v);
+            builder = if steps_taken > 0 { builder.goes_on() } else { builder };
         }
         if start.kind == StartKind::Declared {
             builder = builder.as_declared();

@@ -8,10 +8,13 @@ pub(crate) const GIVEN: &str = "Coordinates that constraints give; the others ar
 /// The heading of the rates of own states, which is shown where there are such.
 pub(crate) const RATES: &str = "Rates of states";
 
+/// The heading of what clocks set, which is shown where there are clocks.
+pub(crate) const SAMPLES: &str = "Memories, from a sample of their clocks on";
+
 /// A heading, what stands under it, and how its formulas are called.
 pub(crate) type Section = (&'static str, &'static [Formula], fn(&Formula) -> (String, String));
 
-pub(crate) fn sections(derivation: &'static Derivation) -> [Section; 9] {
+pub(crate) fn sections(derivation: &'static Derivation) -> [Section; 10] {
     [
         (GIVEN, derivation.given, |f| (f.of.to_owned(), f.of_latex.to_owned())),
         ("Constraints Φ(q, t) = 0", derivation.phi, |f| match f.by {
@@ -41,6 +44,12 @@ pub(crate) fn sections(derivation: &'static Derivation) -> [Section; 9] {
             (format!("Q[{}]", f.of), format!("Q_{{{}}}", f.of_latex))
         }),
         (RATES, derivation.rates, |f| (format!("der({})", f.of), format!(r"\dot{{{}}}", f.of_latex))),
+        (SAMPLES, derivation.samples, |f| {
+            (
+                format!("{}, every {} s", f.of, f.by),
+                format!(r"{}\ (\text{{every }} {})", f.of_latex, f.by_latex),
+            )
+        }),
         ("Energies", &[], |_| (String::new(), String::new())),
     ]
 }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use mbs_analysis::Trials;
 use mbs_ensemble::Cancelled;
 use mbs_live::{LANES, Live, Pack, Prepared, Run};
-use mbs_runtime::equations::{At, Partials};
+use mbs_runtime::equations::{At, Equations, Partials};
 use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, System, SystemClone, Tableau};
 use rayon::prelude::*;
 
@@ -37,6 +37,7 @@ pub fn as_declared(text: &mbs_live::Text) -> Result<Box<dyn Model>, crate::Error
 /// Step and feedback as they are declared.
 fn declared(live: &Live, settings: Settings) -> Settings {
     let step = live.declared_step().unwrap_or(settings.step);
+    let settings = Settings { fits_clocks: live.declared_step().is_none(), ..settings };
     let Some(feedback) = live.declared_feedback() else { return Settings { step, ..settings } };
     let stabilization = if feedback.is_held { Stabilization::Held } else { Stabilization::PerStage };
     let (alpha, beta) = (Some(feedback.alpha), Some(feedback.beta));
@@ -74,8 +75,13 @@ impl Model for FromText {
         self.defaults.clone()
     }
 
+    fn clocks(&self, parameters: &[f64]) -> Result<Vec<[f64; 2]>, Error> {
+        let live = self.with(parameters)?;
+        Ok((0..self.info().sampling.clocks).map(|clock| live.clock(clock)).collect())
+    }
+
     fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
-        let live = self.with(start)?;
+        let live = self.with(&start.parameters)?;
         if let Some(tolerances) = start.tolerances {
             return adaptive::start(Prepared::new(&live), tolerances, start);
         }
@@ -143,7 +149,7 @@ impl FromText {
     fn together(&self, members: Range<usize>, batch: &Batch<'_>) -> Option<Vec<Member>> {
         let begin = |index: usize| {
             let start = (batch.start)(index);
-            let run = run(&self.with(&start)?, &start)?;
+            let run = run(&self.with(&start.parameters)?, &start)?;
             let steps = run.steps_to(batch.end)?;
             Ok((run, steps))
         };
@@ -194,9 +200,9 @@ impl FromText {
     }
 
     /// The mechanism with the parameters of a start.
-    fn with(&self, start: &Start) -> Result<Live, Error> {
+    fn with(&self, given: &[f64]) -> Result<Live, Error> {
         self.live.with_parameters(|parameters| {
-            parameters.iter_mut().zip(&start.parameters).for_each(|(parameter, value)| *parameter = *value);
+            parameters.iter_mut().zip(given).for_each(|(parameter, value)| *parameter = *value);
         })
     }
 }

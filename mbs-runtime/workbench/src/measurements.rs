@@ -45,7 +45,7 @@ impl Measurements {
         }
         let (mut measured, mut units, mut unused) = (Vec::new(), Vec::new(), Vec::new());
         for column in &sheet.columns {
-            let is_input = info.inputs.iter().any(|input| input.name == column.name);
+            let is_input = info.free_inputs().iter().any(|input| input.name == column.name);
             match of(column).filter(|signal| is_wanted(column, signal)) {
                 Some(signal) => {
                     let unit = Unit::of_signal(info, signal);

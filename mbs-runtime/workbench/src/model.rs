@@ -40,6 +40,12 @@ pub trait Model: Send + Sync {
         Settings::default()
     }
 
+    /// Period and offset of its clocks in s.
+    ///
+    /// # Errors
+    /// Parameters that the mechanism refuses.
+    fn clocks(&self, parameters: &[f64]) -> Result<Vec<[f64; 2]>, Error>;
+
     /// A run at its start.
     ///
     /// # Errors

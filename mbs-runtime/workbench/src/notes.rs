@@ -1,9 +1,9 @@
 //! Notes on how a run differs from what one may expect. They are no reason to doubt it.
 
-use mbs_runtime::System;
+use mbs_runtime::{Info, System};
 
 use crate::number::significant;
-use crate::{Model, OtherMethod, Settings, Signals, StartKind, StartValue};
+use crate::{Model, OtherMethod, Settings, Signals, Start, StartKind, StartValue};
 
 /// Declared events that are not looked for, a declared method in whose place another one is taken, and what is made
 /// of a table of inputs.
@@ -31,9 +31,26 @@ pub(crate) fn notes(model: &dyn Model, settings: &Settings) -> Vec<String> {
             declared.word
         ));
     }
+    let step = Start::of(model, settings).map_or(settings.step, |start| start.step);
+    if step < settings.step {
+        notes.push(format!(
+            "steps of {} s lead to the samples of the clocks, and those of {} s do not",
+            significant(step, 7),
+            significant(settings.step, 7)
+        ));
+    }
     notes.extend(settings.signals.iter().flat_map(Signals::notes));
     notes.extend(lost_start_values(model, settings));
     notes
+}
+
+/// The memories that hold where no clock acts.
+pub(crate) fn held(info: &Info) -> Option<String> {
+    let names: Vec<String> = info.memories().iter().map(|memory| format!("`{}`", memory.name)).collect();
+    let is_held = !names.is_empty() && info.sampling.clocks > 0;
+    let names = names.join(", ");
+    is_held
+        .then(|| format!("clocks do not act here: memories hold as the first sample leaves them ({names})"))
 }
 
 /// A run with a constant step that ends beside the time that was asked for.

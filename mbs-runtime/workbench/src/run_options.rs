@@ -99,13 +99,15 @@ impl RunOptions {
     /// that has both a value and a signal.
     pub fn values(&self, model: &dyn Model) -> Result<Settings, Error> {
         let info = model.info();
-        let inputs = assignments("input", info.inputs, &self.inputs)?;
+        let inputs = assignments("input", info.free_inputs(), &self.inputs)
+            .map_err(|error| of_clocks(error, info, &self.inputs))?;
         if let Some(signals) = &self.signals {
             not_twice(signals, &inputs)?;
         }
         Ok(Settings {
             parameters: assignments("parameter", info.parameters, &self.parameters)
-                .map_err(|error| misplaced(error, info, &self.parameters))?,
+                .map_err(|error| misplaced(error, info, &self.parameters))
+                .map_err(|error| of_clocks(error, info, &self.parameters))?,
             signals: self.signals.clone(),
             inputs,
             ..model.defaults()
@@ -147,6 +149,7 @@ impl RunOptions {
         let end = self.value("end", TIME)?.or(end_of_clock);
         let settings = Settings {
             step: self.value("step", TIME)?.unwrap_or(defaults.step),
+            fits_clocks: defaults.fits_clocks && self.text("step").is_none(),
             end: end.unwrap_or(defaults.end),
             every: self.every.unwrap_or(defaults.every),
             alpha: self.value("alpha", RATE)?.or(declared_gain(defaults.alpha)),
@@ -234,12 +237,24 @@ fn assignments(
     Ok(assigned)
 }
 
+/// A memory that is to be set is told as that.
+fn of_clocks(error: Error, info: &Info, asked: &[(String, String)]) -> Error {
+    let is_memory = |name: &str| info.memories().iter().any(|memory| memory.name == name);
+    match asked.iter().find(|(name, _)| is_memory(name)) {
+        Some((name, _)) => Error::Name {
+            name: name.clone(),
+            reason: "it is a memory, which its clock sets; its first value stands in the declaration".into(),
+        },
+        None => error,
+    }
+}
+
 /// An unknown parameter that is an input, or a coordinate, is told as that.
 fn misplaced(error: Error, info: &Info, parameters: &[(String, String)]) -> Error {
     let is_known = |quantities: &[Quantity], name: &str| quantities.iter().any(|q| q.name == name);
     let mut others = parameters.iter().filter(|(name, _)| !is_known(info.parameters, name));
     let found = others.find_map(|(name, text)| {
-        let (what, option) = if is_known(info.inputs, name) {
+        let (what, option) = if is_known(info.free_inputs(), name) {
             ("an input", "--input")
         } else if let Some(at) = info.coordinates.iter().position(|q| q.name == name) {
             (if info.is_own(at) { "a state" } else { "a coordinate" }, "--from")

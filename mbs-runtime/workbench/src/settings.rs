@@ -93,6 +93,8 @@ pub struct Settings {
     pub start: StartKind,
     /// Start values of coordinates `x` and rates `der(x)` in place of the declared ones.
     pub from: Vec<(String, f64)>,
+    /// Nobody asks for this very step: where clocks need a shorter one, that is taken.
+    pub fits_clocks: bool,
     /// Accept gains under which violations grow.
     pub allow_unstable: bool,
 }
@@ -116,6 +118,7 @@ impl Default for Settings {
             until: None,
             start: StartKind::default(),
             from: Vec::new(),
+            fits_clocks: true,
             allow_unstable: false,
         }
     }

@@ -54,7 +54,7 @@ impl Signals {
         let others: Vec<String> = others.map(|column| column.name.clone()).collect();
         match others.first() {
             Some(first) if signals.inputs.is_empty() => {
-                Err(Error::unknown("input", first, info.inputs.iter().map(|input| input.name)))
+                Err(Error::unknown("input", first, info.free_inputs().iter().map(|input| input.name)))
             }
             _ => {
                 signals.skipped = others;
@@ -70,8 +70,8 @@ impl Signals {
     /// does not have it.
     #[cfg(feature = "desk")]
     pub fn read_input(path: &Path, info: &Info, name: &str) -> Result<Self, Error> {
-        let known = || info.inputs.iter().map(|input| input.name);
-        let input = info.inputs.iter().find(|input| input.name == name);
+        let known = || info.free_inputs().iter().map(|input| input.name);
+        let input = info.free_inputs().iter().find(|input| input.name == name);
         let input = input.ok_or_else(|| Error::unknown("input", name, known()))?;
         let sheet = Sheet::read(path)?;
         let column = match (sheet.columns.iter().find(|column| column.name == name), &*sheet.columns) {
@@ -134,8 +134,8 @@ impl Signals {
         }
         let mut inputs = Vec::new();
         for (name, values) in columns {
-            let known = || info.inputs.iter().map(|input| input.name);
-            let input = info.inputs.iter().find(|input| input.name == name);
+            let known = || info.free_inputs().iter().map(|input| input.name);
+            let input = info.free_inputs().iter().find(|input| input.name == name);
             let unit = Unit::of(input.ok_or_else(|| Error::unknown("input", &name, known()))?);
             if values.len() != times.len() || !is_finite(&values) {
                 return refused(&name, "an input that changes has a finite value at each of the times");
@@ -183,7 +183,9 @@ impl Signals {
     pub(crate) fn of(sheet: &Sheet, info: &Info) -> Result<Self, Error> {
         let mut inputs = Vec::new();
         for column in &sheet.columns {
-            let Some(input) = info.inputs.iter().find(|input| input.name == column.name) else { continue };
+            let Some(input) = info.free_inputs().iter().find(|input| input.name == column.name) else {
+                continue;
+            };
             let values = sheet.complete(column, |text| quantity::parse_as(input, text))?;
             inputs.push(Signal::new(input.name, &sheet.times, values));
         }
@@ -200,7 +202,7 @@ impl Signals {
     /// # Errors
     /// [`Error::Unknown`] for an input that it does not have.
     pub fn table(&self, info: &Info) -> Result<Arc<InputTable>, Error> {
-        let known = || info.inputs.iter().map(|input| input.name);
+        let known = || info.free_inputs().iter().map(|input| input.name);
         let mut table = InputTable::default();
         for Signal { name, times, values, way } in &self.inputs {
             let place = known().position(|input| input == name);

@@ -1,5 +1,6 @@
 //! The start that settings mean for a mechanism.
 
+use mbs_runtime::equations::Grid;
 use mbs_runtime::{DOPRI5, Explicit, Quantity, Stabilization, Tableau, Tolerances};
 
 use crate::{Error, Model, OtherMethod, Settings, Signals, Start, Until, start_state};
@@ -12,18 +13,20 @@ impl Start {
     /// where the constraints are kept by projection, a method of another kind and what it has no use for.
     pub fn of(model: &dyn Model, settings: &Settings) -> Result<Self, Error> {
         let info = model.info();
-        let step = settings.step;
-        if !(step > 0.0 && step.is_finite()) {
-            return Err(mbs_runtime::Error::Step { step }.into());
+        if !(settings.step > 0.0 && settings.step.is_finite()) {
+            return Err(mbs_runtime::Error::Step { step: settings.step }.into());
         }
+        let parameters = assigned("parameter", info.parameters, &settings.parameters)?;
+        let step = step(model, settings, &parameters)?;
         if let Some(other) = settings.other {
             has_no_other(other, settings)?;
         }
         let method = method(model.scheme(), settings)?;
         let [alpha, beta] = method.deadbeat(step);
         let start = Self {
-            parameters: assigned("parameter", info.parameters, &settings.parameters)?,
-            inputs: assigned("input", info.inputs, &settings.inputs)?,
+            parameters,
+            inputs: [assigned("input", info.free_inputs(), &settings.inputs)?, defaults(info.memories())]
+                .concat(),
             table: settings
                 .signals
                 .as_ref()
@@ -58,6 +61,21 @@ impl Start {
         let state = Some(start_state::with_values(model, &self, values)?);
         Ok(Self { state, ..self })
     }
+}
+
+/// The step of the settings, or where nobody asked for it, the longest one that is no longer and leads to the samples of
+/// the clocks.
+fn step(model: &dyn Model, settings: &Settings, parameters: &[f64]) -> Result<f64, Error> {
+    let has_clocks = model.info().sampling.clocks > 0;
+    if !(has_clocks && settings.fits_clocks && settings.tolerances_of_run().is_none()) {
+        return Ok(settings.step);
+    }
+    let grid = Grid {
+        start: settings.signals.as_ref().and_then(Signals::start_time).unwrap_or(0.0),
+        step: settings.step,
+    };
+    let fitted = grid.fitted(&model.clocks(parameters)?, f64::EPSILON);
+    Ok(fitted.map_or(settings.step, |grid| grid.step))
 }
 
 /// Refuses what methods of another kind have no use for, since they keep the constraints themselves.
@@ -120,11 +138,16 @@ fn assigned(
     quantities: &[Quantity],
     settings: &[(String, f64)],
 ) -> Result<Vec<f64>, Error> {
-    let mut values: Vec<f64> = quantities.iter().map(|quantity| quantity.default).collect();
+    let mut values = defaults(quantities);
     for (name, value) in settings {
         *place(kind, quantities, name, &mut values)? = *value;
     }
     Ok(values)
+}
+
+/// The declared values.
+fn defaults(quantities: &[Quantity]) -> Vec<f64> {
+    quantities.iter().map(|quantity| quantity.default).collect()
 }
 
 /// The value of the quantity with a name.

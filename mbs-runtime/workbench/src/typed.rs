@@ -70,6 +70,11 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
         self.defaults.clone()
     }
 
+    fn clocks(&self, parameters: &[f64]) -> Result<Vec<[f64; 2]>, Error> {
+        let mechanism = M::new(components(parameters))?;
+        Ok((0..M::INFO.sampling.clocks).map(|clock| mechanism.clock(clock)).collect())
+    }
+
     fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
         if let Some(tolerances) = start.tolerances {
             let mechanism = M::new(components(&start.parameters))?;

@@ -4,7 +4,7 @@
     const statements = "KEYWORDS".replaceAll(" ", "|");
     const begin = new RegExp(`(?<=(?:^|[;{}])\\s*)(?:pub|${statements})\\b`);
     hljs.registerLanguage("mbs", (hljs) => ({
-        keywords: {keyword: "where on in at along radius teeth carrier guess rising falling", built_in: "ground"},
+        keywords: {keyword: "where on in at along radius teeth carrier guess rising falling offset", built_in: "ground"},
         contains: [
             hljs.COMMENT("//", "$"),
             {className: "keyword", begin},

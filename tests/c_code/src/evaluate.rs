@@ -73,6 +73,23 @@ impl<'a> Evaluator<'a> {
         [vec![t_next], self.values(FunctionId::Complete, next)].concat()
     }
 
+    /// Takes the samples that are due after so many steps from 0 s on.
+    pub fn sample(&self, state: &[f64], inputs: &mut [f64], steps: usize, h: f64) {
+        let times = self.values(FunctionId::Clocks, Given::default());
+        for (clock, time) in times.chunks(2).enumerate() {
+            let [every, offset] = [time[0], time[1]].map(|seconds| (seconds / h).round() as i64);
+            if (steps as i64 - offset).rem_euclid(every) != 0 {
+                continue;
+            }
+            let values = self.values(FunctionId::Samples, self.at(state, inputs));
+            for (&[of, memory], value) in self.compiled.sampling.samples.iter().zip(values) {
+                if of == clock {
+                    inputs[memory] = value;
+                }
+            }
+        }
+    }
+
     fn at<'b>(&self, state: &'b [f64], inputs: &'b [f64]) -> Given<'b> {
         let n = self.compiled.coordinates.len();
         Given { t: state[0], q: &state[1..=n], v: &state[n + 1..], inputs, ..Given::default() }

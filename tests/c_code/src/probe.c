@@ -1,7 +1,7 @@
 /* Runs NAME as its input says, and prints numbers by their bits, as doubles:
 
    step steps every, alpha beta is_held (is_held < 0 for the deadbeat gains of the step),
-   inputs, 1 and a state to start from (t, q, v) or 0.
+   inputs, NaN for those that stay as they are, 1 and a state to start from (t, q, v) or 0.
 
    A line has t, q, v, q̈, λ and the outputs, in every so-manieth state. */
 #include "NAME.h"
@@ -68,7 +68,11 @@ int main(void)
         code = NAME_set_feedback(&run, alpha, beta, is_held);
     }
     for (int at = 0; at < CAPS_INPUTS; at++) {
-        ((NAME_real *)&run.inputs)[at] = (NAME_real)next();
+        /* what is no number stays as it is */
+        const double input = next();
+        if (input == input) {
+            ((NAME_real *)&run.inputs)[at] = (NAME_real)input;
+        }
     }
     if (next() > 0) {
         state.t = (NAME_real)next();

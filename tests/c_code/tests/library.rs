@@ -137,18 +137,24 @@ fn a_thousand_steps_in_c_are_those_of_the_programs_to_the_bit() {
         let built = build(&sources, compiler, "-O2").unwrap_or_else(|fault| panic!("{name}: {fault}"));
         // the squeezer turns once in some milliseconds
         let step = if name.contains("squeezer") { 1e-5 } else { compiled.choices.step.unwrap_or(1e-4) };
-        let inputs = vec![0.5; compiled.inputs.len()];
+        let free = compiled.inputs.len() - compiled.sampling.memories;
+        let given: Vec<f64> =
+            (0..compiled.inputs.len()).map(|at| if at < free { 0.5 } else { f64::NAN }).collect();
         let evaluator = Evaluator::new(&compiled);
         for is_held in [true, false] {
             let (alpha, beta) = if is_held { (0.75 / step, 1.0 / step) } else { (1.0 / step, 1.4 / step) };
             let gains = [-2.0 * alpha, -beta * beta];
             let feedback = Some((alpha, beta, is_held));
-            let choice = Choice { step, steps: STEPS, every: 10, feedback, inputs: &inputs, start: None };
+            let choice = Choice { step, steps: STEPS, every: 10, feedback, inputs: &given, start: None };
             let lines = built.run(&choice).unwrap_or_else(|fault| panic!("{name}: {fault}"));
             assert_eq!(lines.len(), 1 + STEPS / 10);
             let states = 1 + 2 * compiled.coordinates.len();
             let mut state = lines[0][..states].to_vec();
             let start = state[0];
+            // the first samples are taken before a program sets anything
+            let mut inputs: Vec<f64> = compiled.inputs.iter().map(|input| input.value).collect();
+            evaluator.sample(&state, &mut inputs, 0, step);
+            inputs[..free].fill(0.5);
             for (at, line) in lines.iter().enumerate() {
                 let expected = evaluator.line(&state, &inputs);
                 assert!(is_same(line, &expected), "{name}, line {at}:\n{line:?}\n{expected:?}");
@@ -156,6 +162,7 @@ fn a_thousand_steps_in_c_are_those_of_the_programs_to_the_bit() {
                 for k in 10 * at..10 * (at + 1) {
                     let t_next = start + (k + 1) as f64 * step;
                     state = evaluator.step(&state, &inputs, [step, t_next], gains, is_held);
+                    evaluator.sample(&state, &mut inputs, k + 1, step);
                 }
             }
         }

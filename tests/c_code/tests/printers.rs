@@ -26,7 +26,8 @@ type Rows = (Vec<Vec<f64>>, Option<Error>);
 
 fn alone<X: Method>(live: &Live, step: f64, inputs: &[f64]) -> Result<Rows, Error> {
     let gains = Baumgarte::<X>::deadbeat(step);
-    let mut run = Run::builder(live, step).baumgarte(gains).inputs(inputs).build()?;
+    let mut run = Run::builder(live, step).baumgarte(gains).build()?;
+    run.set_inputs(inputs);
     let info = live.declared_info();
     let (n, m) = (info.coordinates.len(), info.constraints.len());
     let mut rows = Vec::new();
@@ -61,7 +62,9 @@ fn compare(name: &str, text: &Text, step: f64, compiler: &str) -> bool {
     let live = text.compile().unwrap_or_else(|error| panic!("{name}: {error}"));
     let sources = text.c(Scalar::Double).unwrap_or_else(|error| panic!("{name}: {error}"));
     let built = build(&sources, compiler, "-O1").unwrap_or_else(|fault| panic!("{name}: {fault}"));
-    let inputs = vec![0.5; live.declared_info().inputs.len()];
+    let info = live.declared_info();
+    let free = info.free_inputs().len();
+    let inputs: Vec<f64> = (0..info.inputs.len()).map(|at| if at < free { 0.5 } else { f64::NAN }).collect();
     let mut has_started = true;
     for is_held in [true, false] {
         let gains = if is_held {

@@ -3,7 +3,7 @@
 use super::derivation::readable;
 use super::{
     Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link, Pivot,
-    Sketch, Written,
+    Sampling, Sketch, Written,
 };
 use crate::derive::Equations;
 use crate::model::{self, Block, Direction, Model};
@@ -40,6 +40,7 @@ impl Compiled {
                 .iter()
                 .map(|it| (readable(&model.arena, it.value), it.knots.clone()))
                 .collect(),
+            sampling: sampling(&model),
             jacobian: plan.phi_q_places.clone(),
             pivots: pivots(&model, &plan.pivot_names),
             start_pivots: pivots(&model, &plan.start_pivot_names),
@@ -154,6 +155,12 @@ fn pivots(model: &Model, pivots: &[(Option<usize>, Option<usize>)]) -> Vec<Pivot
         coordinate: coordinate.map_or_else(String::new, |at| model.coordinates[at].quantity.name.clone()),
     };
     pivots.iter().map(pivot).collect()
+}
+
+fn sampling(model: &Model) -> Sampling {
+    let clocks = model.clocks.iter().enumerate();
+    let samples = clocks.flat_map(|(clock, it)| it.sets.iter().map(move |(memory, _)| [clock, *memory]));
+    Sampling { memories: model.memories, clocks: model.clocks.len(), samples: samples.collect() }
 }
 
 fn sketch(sketch: &model::Sketch) -> Sketch {

@@ -18,7 +18,10 @@ pub struct Count {
 impl Compiled {
     /// The functions that the mechanism has in every language.
     pub fn functions(&self) -> impl Iterator<Item = FunctionId> {
-        let is_there = |function: &FunctionId| self.has_stiffness || !function.is(Property::Stiff);
+        let is_there = |function: &FunctionId| {
+            (self.has_stiffness || !function.is(Property::Stiff))
+                && (self.sampling.clocks > 0 || !function.is(Property::Sampled))
+        };
         FunctionId::all().filter(is_there).filter(|function| !function.is(Property::Adaptive))
     }
 

@@ -3,7 +3,7 @@
 use mbs_symbolic::{Arena, Expr, Strategy, Unknown, latex_name};
 
 use crate::derive::Equations;
-use crate::model::Model;
+use crate::model::{Clock, Model};
 use crate::plan::Plan;
 
 /// Formulas with more parts than this are not written out: nobody reads on.
@@ -32,6 +32,8 @@ pub struct Derivation {
     pub forces: Vec<Formula>,
     /// The rates of own states.
     pub rates: Vec<Formula>,
+    /// What clocks set memories to, each by the period of its clock.
+    pub samples: Vec<Formula>,
     /// ½ vᵀMv
     pub kinetic_energy: Formula,
     /// That of gravity and springs.
@@ -122,6 +124,7 @@ impl Derivation {
             mass: coordinates(&equations.mass[..lines]),
             forces: coordinates(&equations.total_forces[..lines]),
             rates: rates.map(|(at, &rate)| formula(arena, coordinate_name(at), "", rate)).collect(),
+            samples: model.clocks.iter().flat_map(|clock| samples(model, clock)).collect(),
             kinetic_energy: formula(arena, "T", "", equations.kinetic_energy),
             potential_energy: formula(arena, "V", "", equations.potential_energy),
             hoisted: plan.hoisted.iter().map(|&value| readable(arena, value)).collect(),
@@ -131,6 +134,15 @@ impl Derivation {
                 .collect(),
         }
     }
+}
+
+fn samples(model: &Model, clock: &Clock) -> impl Iterator<Item = Formula> {
+    let arena = &model.arena;
+    let period = readable(arena, clock.period);
+    clock
+        .sets
+        .iter()
+        .map(move |(memory, value)| formula(arena, &model.inputs[*memory].quantity.name, &period, *value))
 }
 
 fn formula(arena: &Arena, of: &str, by: &str, expr: Expr) -> Formula {

@@ -120,6 +120,8 @@ pub struct Compiled {
     pub corners: Vec<Knots>,
     /// The values of [`FunctionId::Switches`], as people read them, with their knots.
     pub switches: Vec<(String, Knots)>,
+    /// What clocks set.
+    pub sampling: Sampling,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
     /// The pivot of each result of [`FunctionId::Pivots`].
@@ -172,6 +174,16 @@ pub struct Constraint {
     pub is_rate: bool,
     /// The dimension of Φ.
     pub dimension: Dimension,
+}
+
+/// The clocks of a mechanism, and what they set: memories, which stand behind the inputs that a program sets.
+pub struct Sampling {
+    /// How many of the inputs, at their end, are memories.
+    pub memories: usize,
+    /// How many clocks there are.
+    pub clocks: usize,
+    /// The clock and the memory, by its place among the inputs, of every result of [`FunctionId::Samples`].
+    pub samples: Vec<[usize; 2]>,
 }
 
 /// A change of sign of a value that [`FunctionId::Events`] gives.
@@ -339,6 +351,8 @@ impl Compiled {
             Results::Events => self.events.len(),
             Results::Corners => 2 * self.corners.len(),
             Results::Switches => self.switches.len(),
+            Results::Clocks => 2 * self.sampling.clocks,
+            Results::Samples => self.sampling.samples.len(),
             Results::Points => 2 * self.sketch.points.len(),
             Results::Scalar | Results::Growth => 1,
         }

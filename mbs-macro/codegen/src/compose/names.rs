@@ -8,7 +8,7 @@ use proc_macro2::Ident;
 
 use crate::mechanics::joints::POLAR_ANGLE;
 use crate::syntax::{
-    Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Outside, Points, Vector,
+    Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Outside, Points, Set, Vector,
 };
 
 /// Rows of joints are called after them: `pin_x`.
@@ -38,6 +38,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Constant { .. }
         | ItemKind::Input { .. }
         | ItemKind::State { .. }
+        | ItemKind::Memory { .. }
         | ItemKind::Let { .. }
         | ItemKind::Binding { .. } => quantities(item).into_iter().map(ToString::to_string).collect(),
         ItemKind::Constraint { name, .. }
@@ -67,6 +68,8 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Gravity { .. }
         | ItemKind::Point { .. }
         | ItemKind::Rate { .. }
+        | ItemKind::Every(_)
+        | ItemKind::Set(_)
         | ItemKind::Start { .. }
         | ItemKind::Require { .. }
         | ItemKind::Assembly { .. }
@@ -81,6 +84,7 @@ pub fn quantities(item: &Item) -> Vec<&Ident> {
         | ItemKind::Constant { name, .. }
         | ItemKind::Input { name, .. }
         | ItemKind::State { name, .. }
+        | ItemKind::Memory { name, .. }
         | ItemKind::Let { name, .. }
         | ItemKind::Binding { name, .. } => vec![name],
         ItemKind::Body { coordinates, .. } => coordinates.iter().map(|coordinate| &coordinate.name).collect(),
@@ -111,7 +115,9 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             in_formula(value, visit);
             in_formula(default, visit);
         }
-        ItemKind::Input { name, value, .. } | ItemKind::State { name, value, .. } => {
+        ItemKind::Input { name, value, .. }
+        | ItemKind::State { name, value, .. }
+        | ItemKind::Memory { name, value, .. } => {
             visit(Mention::Name(name));
             value.iter_mut().for_each(|value| in_formula(value, visit));
         }
@@ -119,6 +125,12 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             visit(Mention::Coordinate(prefix, state));
             in_formula(value, visit);
         }
+        ItemKind::Every(every) => {
+            in_formula(&mut every.period, visit);
+            every.offset.iter_mut().for_each(|offset| in_formula(offset, visit));
+            every.sets.iter_mut().for_each(|set| in_set(set, visit));
+        }
+        ItemKind::Set(set) => in_set(set, visit),
         ItemKind::Require { of, condition } => {
             of.iter_mut().for_each(|name| visit(Mention::Name(name)));
             in_condition(condition, visit);
@@ -220,6 +232,11 @@ fn beside(is_known: impl Fn(&Ident) -> bool, visit: &mut dyn FnMut(Mention<'_>))
         Mention::Formula(FormulaKind::Name(name)) if is_known(name) => {}
         other => visit(other),
     }
+}
+
+fn in_set(set: &mut Set, visit: &mut dyn FnMut(Mention<'_>)) {
+    visit(Mention::Coordinate(&mut set.prefix, &mut set.memory));
+    in_formula(&mut set.value, visit);
 }
 
 fn in_condition(condition: &mut Condition, visit: &mut dyn FnMut(Mention<'_>)) {

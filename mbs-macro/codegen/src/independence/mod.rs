@@ -29,7 +29,7 @@ mod size;
 mod sparse;
 pub mod words;
 
-use mbs_symbolic::Stage;
+use mbs_symbolic::{Stage, Symbol};
 
 pub use rows::Rows;
 pub use samples::Samples;
@@ -63,13 +63,18 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
     for requirement in &model.requirements {
         let difference = model.arena.evaluate(&[requirement.difference], &values);
         if !requirement.comparison.holds(difference[0]) {
-            errors.push(
-                Diagnostic::new(
-                    requirement.span,
+            let value = model.arena.evaluate(&[requirement.value], &values)[0];
+            let (message, help) = match requirement.is_written() {
+                true => (
                     format!("the declared value of `{}` violates its own condition", requirement.name),
-                )
-                .help("change the value or the condition"),
-            );
+                    "change the value or the condition",
+                ),
+                false => (
+                    format!("`{}` is {value}, but {}", requirement.name, requirement.text),
+                    "change the value",
+                ),
+            };
+            errors.push(Diagnostic::new(requirement.span, message).help(help));
         }
     }
     for check in &model.checks {
@@ -85,6 +90,7 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
             errors.push(Diagnostic::new(check.span, message).help(help));
         }
     }
+    check_declared_step(model, &values, errors);
     let start_time = model.arena.evaluate(&[model.start_time], &values)[0];
     if !start_time.is_finite() {
         let message = format!("the time of the start is {start_time} s at the declared parameters");
@@ -118,6 +124,29 @@ fn check_declared_values(model: &Model, errors: &mut Diagnostics) {
                     }),
                 );
             }
+        }
+    }
+}
+
+/// A declared step leads to the samples of the clocks.
+fn check_declared_step(model: &Model, values: &dyn Fn(Symbol) -> f64, errors: &mut Diagnostics) {
+    let Some((step, span)) = model.solver.step else { return };
+    let slack = 8.0 * f64::EPSILON;
+    let is_whole = |seconds: f64| {
+        (seconds / step - (seconds / step).round()).abs() <= slack * (1.0 + (seconds / step).abs())
+    };
+    for clock in &model.clocks {
+        let found = model.arena.evaluate(&[clock.period, clock.offset], values);
+        let (period, offset) = (found[0], found[1]);
+        if !(is_whole(period) && period >= (1.0 - slack) * step && is_whole(offset)) {
+            let memory = clock.sets.first().map_or("", |(memory, _)| &model.inputs[*memory].quantity.name);
+            let from = if offset == 0.0 { String::new() } else { format!(" from {offset:?} s on") };
+            let message = format!(
+                "no whole number of steps of {step:?} s leads to the samples of `{memory}`, every {period:?} s{from}"
+            );
+            errors.push(
+                Diagnostic::new(span, message).help("take a step of which periods and offsets are multiples"),
+            );
         }
     }
 }

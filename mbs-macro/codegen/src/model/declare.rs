@@ -10,7 +10,7 @@ use super::resolver::Resolver;
 use super::{Block, Body, Coordinate, Direction, Meaning};
 use crate::diagnostics::Diagnostic;
 use crate::quantity::{Quantity, Setting};
-use crate::syntax::{self, Attachment, Formula, FormulaKind, Item, ItemKind, Role};
+use crate::syntax::{self, Attachment, Formula, FormulaKind, Item, ItemKind, Role, UnitText};
 
 impl<'a> Resolver<'a> {
     pub(super) fn declare(&mut self, item: &'a Item) {
@@ -20,15 +20,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Let { name, value } | ItemKind::Binding { name, value, .. } => {
                 self.declare_definition(name, value, false);
             }
-            ItemKind::Input { name, unit, .. } => {
-                let meaning = Meaning::Input(self.inputs.len());
-                let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, meaning);
-                let dimension = unit.unit.dimension;
-                let value = Value::Symbol { symbol, dimension, span: name.span() };
-                self.scope.declare(name, value, &mut self.errors);
-                let quantity = quantity(name, &item.doc, &unit.text, unit.unit);
-                self.inputs.push(Setting { quantity, value: 0.0 });
-            }
+            ItemKind::Input { name, unit, .. } => self.declare_input(name, unit, &item.doc),
             ItemKind::Body { name, coordinates, .. } => self.declare_body(name, coordinates),
             _ => {}
         }
@@ -52,6 +44,24 @@ impl<'a> Resolver<'a> {
             }
             _ => {}
         }
+    }
+
+    /// Memories, which stand behind all inputs.
+    pub(super) fn declare_memory(&mut self, item: &'a Item) {
+        if let ItemKind::Memory { name, unit, .. } = &item.kind {
+            self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
+            self.declare_input(name, unit, &item.doc);
+        }
+    }
+
+    fn declare_input(&mut self, name: &Ident, unit: &UnitText, doc: &str) {
+        let meaning = Meaning::Input(self.inputs.len());
+        let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, meaning);
+        let dimension = unit.unit.dimension;
+        let value = Value::Symbol { symbol, dimension, span: name.span() };
+        self.scope.declare(name, value, &mut self.errors);
+        let quantity = quantity(name, doc, &unit.text, unit.unit);
+        self.inputs.push(Setting { quantity, value: 0.0 });
     }
 
     /// A second one of the same name is refused when it is resolved.
@@ -207,7 +217,7 @@ pub(super) fn quantity(name: &Ident, doc: &str, unit_text: &str, unit: Unit) -> 
 }
 
 /// The unit of a number, also behind a sign; `None` for computed values.
-fn literal_unit(formula: &Formula) -> Option<syntax::UnitText> {
+fn literal_unit(formula: &Formula) -> Option<UnitText> {
     match &formula.kind {
         FormulaKind::Number { unit, .. } => unit.clone(),
         FormulaKind::Negative(inner) => literal_unit(inner),

@@ -277,6 +277,7 @@ impl Scope<'_> {
         match self.meaning(symbol) {
             Meaning::Time => "the time `t`".to_owned(),
             Meaning::Parameter(_) => format!("the parameter `{name}`"),
+            Meaning::Input(at) if at >= self.first_memory => format!("the memory `{name}`"),
             Meaning::Input(_) => format!("the input `{name}`"),
             Meaning::Coordinate(_) => format!("the coordinate `{name}`"),
             // the velocity of a coordinate has no name of its own

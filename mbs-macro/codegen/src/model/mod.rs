@@ -24,6 +24,7 @@ mod places;
 mod rates;
 mod reactions;
 mod resolver;
+mod samples;
 mod settings;
 mod sketch;
 mod solver;
@@ -63,7 +64,11 @@ pub struct Model {
     pub solver: Solver,
     pub parameters: Vec<Setting>,
     pub requirements: Vec<Requirement>,
+    /// What a program sets, and behind it the memories, which clocks set.
     pub inputs: Vec<Setting>,
+    /// How many of the inputs are memories.
+    pub memories: usize,
+    pub clocks: Vec<Clock>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
     /// The inertia of each coordinate.
@@ -115,6 +120,13 @@ pub struct Requirement {
     /// In words, for the run-time error.
     pub text: String,
     pub span: Span,
+}
+
+impl Requirement {
+    /// True if it stands in the declaration as it is told.
+    pub fn is_written(&self) -> bool {
+        self.text.ends_with("has to hold")
+    }
 }
 
 /// A coordinate of a body, or a state of the declaration's own.
@@ -265,6 +277,14 @@ pub struct Closes {
 pub struct Output {
     pub quantity: Quantity,
     pub value: Expr,
+}
+
+/// A clock: it samples at offset + k period, and sets memories one after the other.
+pub struct Clock {
+    pub period: Expr,
+    pub offset: Expr,
+    /// The memories by their place among the inputs, each once, with their values in terms of those before the sample.
+    pub sets: Vec<(usize, Expr)>,
 }
 
 /// A change of sign of a value.

@@ -28,6 +28,8 @@ pub enum Place {
     /// The right side of the equation of a state.
     Rate,
     Event,
+    /// The value that a clock sets a memory to.
+    Sample,
     Anywhere,
 }
 
@@ -39,7 +41,9 @@ impl Place {
             Meaning::Velocity(_) => {
                 !matches!(self, Self::Constant | Self::Property | Self::Constraint | Self::Potential)
             }
-            Meaning::Input(_) => matches!(self, Self::Load | Self::Rate | Self::Event | Self::Anywhere),
+            Meaning::Input(_) => {
+                matches!(self, Self::Load | Self::Rate | Self::Event | Self::Sample | Self::Anywhere)
+            }
             Meaning::Multiplier(_) => matches!(self, Self::Load | Self::Rate | Self::Anywhere),
             _ => self == Self::Anywhere,
         }
@@ -70,6 +74,10 @@ impl Place {
             }
             Self::Event => {
                 "an event is written in positions, velocities, states, time, inputs and parameters"
+            }
+            Self::Sample => {
+                "a sample takes positions, velocities, states, memories, time, inputs and parameters; accelerations and \
+                 reactions it cannot measure"
             }
             Self::Anywhere => "this cannot stand here",
         }
@@ -107,6 +115,8 @@ pub struct Scope<'a> {
     pub tables: BTreeMap<String, Table<'a>>,
     /// Tables of two arguments.
     pub surfaces: Vec<Surface>,
+    /// Where memories begin among the inputs.
+    pub first_memory: usize,
     /// Conditions on parameters, those of statements and those of laws in formulas.
     pub requirements: Vec<Requirement>,
 }
@@ -130,6 +140,7 @@ impl<'a> Scope<'a> {
             time,
             locals: Vec::new(),
             depth: 0,
+            first_memory: usize::MAX,
             requirements: Vec::new(),
             tables: BTreeMap::new(),
             surfaces: Vec::new(),

@@ -15,8 +15,8 @@ use rustc_hash::FxHashMap as HashMap;
 use super::known::{Definition, Energies, State, Value};
 use super::names::Scope;
 use super::{
-    Block, Body, Check, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output, ReactiveLoad,
-    Solver, Start,
+    Block, Body, Check, Clock, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output,
+    ReactiveLoad, Solver, Start,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
 use crate::mechanics::{Inertia, Load};
@@ -31,6 +31,7 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     let mut resolver = Resolver::new(declaration);
     // Names first, so that statements may stand in any order.
     resolver.each(declaration, Resolver::declare);
+    resolver.each(declaration, Resolver::declare_memory);
     resolver.each(declaration, Resolver::declare_rows);
     resolver.each(declaration, Resolver::resolve_value);
     resolver.each(declaration, |resolver, item| {
@@ -66,6 +67,7 @@ pub(super) struct Resolver<'a> {
     /// How many of them have their value.
     pub resolved_parameters: usize,
     pub inputs: Vec<Setting>,
+    pub clocks: Vec<Clock>,
     pub coordinates: Vec<Coordinate>,
     pub bodies: Vec<Body>,
     pub resolved_bodies: BTreeSet<usize>,
@@ -107,6 +109,7 @@ impl<'a> Resolver<'a> {
             parameters: Vec::new(),
             resolved_parameters: 0,
             inputs: Vec::new(),
+            clocks: Vec::new(),
             coordinates: Vec::new(),
             bodies: Vec::new(),
             resolved_bodies: BTreeSet::new(),
@@ -230,7 +233,9 @@ impl<'a> Resolver<'a> {
             solver: self.solver,
             parameters: self.parameters,
             requirements: self.scope.requirements,
+            memories: self.inputs.len().saturating_sub(self.scope.first_memory),
             inputs: self.inputs,
+            clocks: self.clocks,
             coordinates: self.coordinates,
             bodies: self.bodies,
             constraints: self.constraints,

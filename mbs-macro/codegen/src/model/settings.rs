@@ -23,7 +23,8 @@ impl<'a> Resolver<'a> {
                     self.scope.values.insert(name.to_string(), Value::Refused(name.span()));
                 }
             }
-            ItemKind::Input { name, value: Some(value), .. } => self.resolve_input(name, value),
+            ItemKind::Input { name, value: Some(value), .. }
+            | ItemKind::Memory { name, value: Some(value), .. } => self.resolve_input(name, value),
             _ => {}
         }
     }

@@ -191,5 +191,10 @@ impl Resolver<'_> {
                 .help("add one, as in `step = 0.5 [ms];`"),
             );
         }
+        if let (Some(span), false) = (self.solver.reverse, self.clocks.is_empty()) {
+            self.errors.push(Diagnostic::new(span, "no way leads back through the samples of a clock").help(
+                "leave `gradients = reverse;` out: derivatives by dual numbers go through samples, too",
+            ));
+        }
     }
 }

@@ -144,6 +144,8 @@ impl<'a> Resolver<'a> {
             ItemKind::Require { of, condition } => self.require(condition, of.as_ref()),
             ItemKind::Binding { name, value, default } => self.check_binding(name, value, default),
             ItemKind::State { name, value, .. } => self.resolve_state(name, value.as_ref()),
+            ItemKind::Every(every) => self.resolve_every(every),
+            ItemKind::Set(set) => self.set_outside(set),
             ItemKind::Start { entries, .. } => entries.iter().for_each(|entry| self.resolve_start(entry)),
             _ => {}
         }

@@ -26,6 +26,7 @@ impl Resolver<'_> {
             .chain(tables)
             .chain(self.impacts())
             .chain(self.rates_of_positions())
+            .chain(self.never_set(declaration))
             .collect()
     }
 
@@ -120,6 +121,7 @@ impl Resolver<'_> {
             let (what, name) = match &item.kind {
                 ItemKind::Parameter { name, .. } | ItemKind::Binding { name, .. } => ("parameter", name),
                 ItemKind::Input { name, .. } => ("input", name),
+                ItemKind::Memory { name, .. } => ("memory", name),
                 ItemKind::Let { name, .. } => ("definition", name),
                 ItemKind::Table(table) => (table.word, &table.name),
                 _ => continue,

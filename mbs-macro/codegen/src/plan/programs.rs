@@ -58,6 +58,8 @@ pub fn roots(
     let momentum = momentum.collect();
     let entries = equations.phi_q.iter().flat_map(|row| row.values().copied());
     let growths = solver.factorization.pivots.iter().map(|pivot| pivot.growth);
+    let samples = model.clocks.iter().flat_map(|clock| clock.sets.iter().map(|(_, value)| *value));
+    let samples: Vec<Expr> = samples.collect();
     for (function, values) in [
         (FunctionId::Phi, equations.phi.clone()),
         (FunctionId::PhiDot, equations.phi_dot.clone()),
@@ -78,6 +80,8 @@ pub fn roots(
         (FunctionId::Pivots, growths.collect()),
         (FunctionId::Outputs, model.outputs.iter().map(|output| output.value).collect()),
         (FunctionId::Events, model.events.iter().map(|event| event.value).collect()),
+        (FunctionId::Clocks, model.clocks.iter().flat_map(|clock| [clock.period, clock.offset]).collect()),
+        (FunctionId::Samples, samples),
         (FunctionId::Conditions, requirements(model, equations)),
         (FunctionId::Start, declared_start(model)),
         (FunctionId::Points, model.sketch.places(&mut model.arena)),

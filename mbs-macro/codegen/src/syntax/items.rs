@@ -12,11 +12,10 @@ use super::formula::{end, is_vector};
 use super::indices::Indices;
 use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
-use super::words::{block, definition, doc, equals, helped, name, name_before_unit, path, semicolon, usable};
-use super::{
-    Condition, Coordinate, Declaration, EnergyRole, Formula, ItemKind, Load, Property, Role, StartEntry,
-    UnitText,
+use super::words::{
+    block, definition, doc, equals, helped, name, name_before_unit, path, semicolon, usable, with_unit,
 };
+use super::{Condition, Coordinate, Declaration, EnergyRole, ItemKind, Load, Property, Role, StartEntry};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::mechanics::elements::{ELEMENTS, FORCE_BETWEEN, TORQUE_BETWEEN};
@@ -208,24 +207,6 @@ pub(super) fn state(input: ParseStream<'_>) -> Result<ItemKind> {
     let (name, unit, value) =
         with_unit(input, |name| format!("a state needs its unit: `state {name} [A] = 0;`"))?;
     Ok(ItemKind::State { name, unit, value })
-}
-
-/// A name, its unit, and a value where there is one; `needs` says that a unit is missing.
-fn with_unit(
-    input: ParseStream<'_>,
-    needs: impl Fn(&Ident) -> String,
-) -> Result<(Ident, UnitText, Option<Formula>)> {
-    let name = name_before_unit(input)?;
-    if !input.peek(token::Bracket) {
-        return Err(input.error(format!("{}, or `[1]` for a bare number", needs(&name))));
-    }
-    let unit = input.parse()?;
-    let value = match input.parse::<Option<Token![=]>>()? {
-        Some(_) => Some(input.parse()?),
-        None => None,
-    };
-    semicolon(input)?;
-    Ok((name, unit, value))
 }
 
 /// `der(current) = (u - R*current)/L;`

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use syn::Result;
 use syn::parse::ParseStream;
 
-use super::{EnergyRole, ItemKind, Role, items, joints, solver, tables};
+use super::{EnergyRole, ItemKind, Role, clocks, items, joints, solver, tables};
 use crate::mechanics::elements::ELEMENTS;
 use crate::mechanics::joints::JOINTS;
 
@@ -59,6 +59,8 @@ pub const STATEMENTS: &[Statement] = &[
     ("const", "const k = 1/12;", "a number that is folded into the code", |input, _| items::constant(input)),
     ("input", "input u [V] = 12;", "a quantity that a program sets at every step, and its value at first", |input, _| items::input_item(input)),
     ("state", "state current [A] = 0;", "a state of its own, which an equation drives", |input, _| items::state(input)),
+    ("memory", "memory integral [rad] = 0;", "a value that holds until a clock sets it", |input, _| clocks::memory(input)),
+    ("set", "set integral = integral + error;", "gives a memory a value, in an `every`", |input, _| clocks::set(input)),
     ("der", "der(current) = (u - R*current)/L;", "the rate of a state", |input, _| items::rate(input)),
     ("let", "let s = sin(theta);", "a name for an expression", |input, _| items::let_item(input)),
     ("gravity", "gravity = (0, -9.81) [m/s^2];", "acts on every body that has a mass", items::gravity),
@@ -86,6 +88,7 @@ pub const STATEMENTS: &[Statement] = &[
 const BLOCKS: &[(&str, &str, &str)] = &[
     ("for", "for i in 1..=N { … }", "repeats statements"),
     ("if", "if i > 1 { … } else { … }", "chooses statements by whole numbers"),
+    ("every", "every 1 [ms] { … }", "sets memories at sample times, one after the other"),
     ("assembly", "assembly Leg { … }", "describes a part that is used more than once"),
 ];
 
@@ -128,6 +131,7 @@ const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["load", "moment"], "a load is a `force` or a `torque`"),
     (&["sensor", "measure", "record", "plot"], "what is to be recorded is an `output`"),
     (&["when", "trigger", "zero_crossing", "until"], "a moment that a run finds is an `event`: `event hit: x = 0.2 [m] rising;`"),
+    (&["sample", "sampled", "periodic", "clock", "controller", "discrete"], "what a controller does at sample times stands in `every 1 [ms] { set u = …; }`, where `memory u [V] = 0;` holds the value"),
     (&["initial", "init", "initially"], "the motion begins where `start { … }` says"),
     (&["coordinate", "variable", "var"], "coordinates belong to bodies: `body rod (x, y, theta) { … }`; what is no position is a `state`: `state current [A] = 0; der(current) = …;`"),
     (&["marker", "frame", "node"], "a place on a body is a `point`: `point tip on rod = (l/2, 0);`"),

@@ -1,6 +1,7 @@
 //! The declaration as it was written: shapes are right, names are unresolved.
 
 mod choices;
+mod clocks;
 mod elements;
 mod formula;
 mod groups;
@@ -19,6 +20,7 @@ use mbs_symbolic::units::Unit;
 use mbs_symbolic::{Beyond, Interpolation, Number};
 use proc_macro2::{Ident, Span, TokenStream};
 
+pub use clocks::{Every, Set};
 pub use items::parse;
 pub use keywords::{Keyword, KeywordKind, keywords};
 pub use roles::{EnergyRole, Role};
@@ -74,6 +76,12 @@ pub enum ItemKind {
     Input { name: Ident, unit: UnitText, value: Option<Formula> },
     /// `state current [A] = 0;`
     State { name: Ident, unit: UnitText, value: Option<Formula> },
+    /// `memory integral [rad] = 0;`
+    Memory { name: Ident, unit: UnitText, value: Option<Formula> },
+    /// `every 1 [ms] offset 0.2 [ms] { … }`
+    Every(Every),
+    /// `set integral = integral + error;`
+    Set(Set),
     /// `der(current) = (u - R*current)/L;`
     Rate { prefix: Vec<Ident>, state: Ident, value: Formula },
     /// `require l1 < l2;`, or the condition of a parameter that is bound.

@@ -7,13 +7,14 @@
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::discouraged::Speculative;
-use syn::parse::{ParseStream, Parser};
-use syn::{Error, Result, Token, braced};
+use syn::parse::{ParseBuffer, ParseStream, Parser};
+use syn::{Error, Result, Token, braced, token};
 
 use super::indices::{Indices, regrouped};
 use super::items::item;
-use super::words::{block, doc, name};
-use super::{Item, ItemKind};
+use super::keywords::keywords;
+use super::words::{block, doc, helped, name};
+use super::{Every, Item, ItemKind, clocks};
 use crate::diagnostics::Diagnostics;
 
 /// More statements than this are not a mechanism but a slip in a range.
@@ -57,6 +58,7 @@ impl<'a> Reader<'a> {
                     self.choose(content, indices, &mut items)
                 }
                 Some("assembly") => self.assembly(content, indices, &mut items),
+                Some("every") => self.every(content, indices, &mut items),
                 _ => self.plain(content, tokens, indices, &mut items),
             };
             if let Err(error) = result {
@@ -192,6 +194,45 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// `every 1 [ms] offset 0.2 [ms] { set u = …; }`
+    fn every(&mut self, content: ParseStream<'_>, indices: &Indices, items: &mut Vec<Item>) -> Result<()> {
+        const EXAMPLE: &str = "every 1 [ms] { set u = …; }";
+        let doc = doc(content)?;
+        let keyword = content.call(Ident::parse_any)?.span();
+        self.position += 1;
+        let position = self.position;
+        let head: TokenStream = before_block(content.fork());
+        let (period, offset) = match indices.resolve(head.clone()) {
+            None => clocks::times(content)?,
+            Some(resolved) => {
+                let at = content.span();
+                take(content, head)?;
+                // what ends too early has no place among tokens
+                clocks::times.parse2(resolved).map_err(|error| Error::new(at, error))?
+            }
+        };
+        block(content, EXAMPLE)?;
+        let body: Group = content.parse()?;
+        let mut inner = Vec::new();
+        if let Some(word) = clocks::other_than_set(body.stream()) {
+            let message = "nothing but `set`, `for` and `if` stands in an `every`";
+            let is_statement = keywords().iter().any(|keyword| word == keyword.word);
+            let help = match is_statement {
+                true => "declare it around the clock".to_owned(),
+                false => format!("a memory is given a value by `set {word} = …;`"),
+            };
+            return Err(helped(word.span(), message, help));
+        }
+        self.inner(&body, indices, &mut inner)?;
+        let set = |item: Item| match item.kind {
+            ItemKind::Set(set) => Some(set),
+            _ => None,
+        };
+        let sets = inner.into_iter().filter_map(set).collect();
+        items.push(Item { doc, position, kind: ItemKind::Every(Every { keyword, period, offset, sets }) });
+        Ok(())
+    }
+
     fn inner(&mut self, body: &Group, indices: &Indices, items: &mut Vec<Item>) -> Result<()> {
         if self.depth >= DEEPEST {
             let message = format!("blocks are nested more than {DEEPEST} deep here");
@@ -227,7 +268,7 @@ fn whole(input: ParseStream<'_>, indices: &Indices, example: &str) -> Result<i64
     let at = input.span();
     while !(input.is_empty()
         || input.peek(Token![..])
-        || input.peek(syn::token::Brace)
+        || input.peek(token::Brace)
         || input.peek(Token![=])
         || COMPARISONS.iter().any(|(_, peek, _)| peek(input)))
     {
@@ -281,6 +322,17 @@ fn take_statement(input: ParseStream<'_>) -> TokenStream {
         if is_end || (is_block && !has_choice && !input.peek(Token![else])) {
             break;
         }
+    }
+    tokens
+}
+
+/// The tokens up to a `{ … }`.
+fn before_block(input: ParseBuffer<'_>) -> TokenStream {
+    let mut tokens = TokenStream::new();
+    while !input.peek(token::Brace)
+        && let Ok(token) = input.parse::<TokenTree>()
+    {
+        tokens.extend([token]);
     }
     tokens
 }

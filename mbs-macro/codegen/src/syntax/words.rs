@@ -7,8 +7,8 @@ use syn::parse::ParseStream;
 use syn::spanned::Spanned;
 use syn::{Attribute, Error, Result, Token, token};
 
-use super::Formula;
 use super::formula::bracket_after_name;
+use super::{Formula, UnitText};
 use crate::diagnostics::{HELP, WORD_OF_RUST};
 
 /// The text of doc comments; other attributes are refused.
@@ -119,4 +119,22 @@ pub(super) fn definition(input: ParseStream<'_>) -> Result<(Ident, Formula)> {
     let value = input.parse()?;
     semicolon(input)?;
     Ok((name, value))
+}
+
+/// A name, its unit, and a value where there is one; `needs` says that a unit is missing.
+pub(super) fn with_unit(
+    input: ParseStream<'_>,
+    needs: impl Fn(&Ident) -> String,
+) -> Result<(Ident, UnitText, Option<Formula>)> {
+    let name = name_before_unit(input)?;
+    if !input.peek(token::Bracket) {
+        return Err(input.error(format!("{}, or `[1]` for a bare number", needs(&name))));
+    }
+    let unit = input.parse()?;
+    let value = match input.parse::<Option<Token![=]>>()? {
+        Some(_) => Some(input.parse()?),
+        None => None,
+    };
+    semicolon(input)?;
+    Ok((name, unit, value))
 }

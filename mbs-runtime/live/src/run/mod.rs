@@ -7,7 +7,7 @@ mod reverse;
 pub use pack::Pack;
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch};
+use mbs_runtime::equations::{self, At, Equations, Grid, Preparation, Room, Start, Watch};
 use mbs_runtime::{
     Adaptive, AdaptiveBuilder, Baumgarte, Error, Explicit, Gains, Held, Method, Projected, Real,
 };
@@ -170,6 +170,20 @@ impl<T: Real> Run<T> {
     /// ```
     pub fn adaptive(mechanism: &Live<T>) -> AdaptiveBuilder<Prepared<T>> {
         Adaptive::builder(Prepared::new(mechanism))
+    }
+
+    /// The steps, by which clocks are told.
+    fn grid(&self) -> Grid {
+        Grid { start: self.start_time.to_f64(), step: self.step.to_f64() }
+    }
+
+    /// Takes the samples that are due.
+    fn sample(&mut self) {
+        if self.mechanism.declared_info().sampling.clocks > 0 {
+            let [q, v] = self.completed();
+            let at = At { t: self.t, q: &q, v: &v };
+            self.grid().sample(self.steps, &self.mechanism, at, &mut self.inputs);
+        }
     }
 
     /// The state of the coordinates that are integrated.
@@ -392,7 +406,7 @@ impl<T: Real> Builder<T> {
         let mut states = [(); 2].map(|()| vec![T::ZERO; info.states.len()]);
         states.iter_mut().zip([&q, &v]).for_each(|(states, all)| mechanism.states(all, states));
         let [q, v] = states;
-        Ok(Run {
+        let mut run = Run {
             gains: baumgarte.gains(),
             method,
             keeps_constraints,
@@ -408,6 +422,11 @@ impl<T: Real> Builder<T> {
             stepper: Stepper::new(&mechanism, method),
             room: numbers,
             mechanism,
-        })
+        };
+        run.grid().check(&run.mechanism)?;
+        if steps_taken == 0 {
+            run.sample();
+        }
+        Ok(run)
     }
 }

@@ -2,7 +2,7 @@
 
 use mbs_runtime::{Error, System};
 
-use super::{Run, copy};
+use super::Run;
 use crate::block::{Block, Member};
 use crate::lanes::{LANES, read};
 
@@ -92,12 +92,23 @@ impl Pack {
         for (lane, is_taken) in is_taken.into_iter().enumerate().take(self.runs.len()) {
             if is_taken && self.goes_on[lane] {
                 self.runs[lane].watch.note(self.block.growth(lane));
+                self.sample(lane);
             } else if let Err(error) = self.step_alone(lane) {
                 self.goes_on[lane] = false;
                 ended.push((lane, error));
             }
         }
         ended
+    }
+
+    /// Takes the samples of a run that are due.
+    fn sample(&mut self, lane: usize) {
+        if self.runs[lane].mechanism.declared_info().sampling.clocks > 0 {
+            self.meet(lane);
+            let run = &mut self.runs[lane];
+            run.sample();
+            self.block.set_inputs(lane, &run.inputs);
+        }
     }
 
     /// A step of a run by itself, if it goes on: it finds out what went wrong, or computes
@@ -110,6 +121,7 @@ impl Pack {
         let run = &mut self.runs[lane];
         run.step()?;
         self.block.put(lane, &run.q, &run.v);
+        self.block.set_inputs(lane, &run.inputs);
         Ok(())
     }
 
@@ -197,8 +209,8 @@ impl Pack {
     /// ```
     pub fn set_inputs(&mut self, lane: usize, inputs: &[f64]) {
         if let Some(run) = self.runs.get_mut(lane) {
-            copy(&mut run.inputs, inputs);
-            self.block.set_inputs(lane, inputs);
+            run.set_inputs(inputs);
+            self.block.set_inputs(lane, &run.inputs);
         }
     }
 

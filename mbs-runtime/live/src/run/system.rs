@@ -23,7 +23,8 @@ impl<T: Real> System<T> for Run<T> {
     }
 
     fn set_inputs(&mut self, inputs: &[T]) {
-        copy(&mut self.inputs, inputs);
+        let free = self.mechanism.declared_info().free_inputs().len();
+        copy(&mut self.inputs[..free], inputs);
     }
 
     fn step_size(&self) -> T {
@@ -56,6 +57,7 @@ impl<T: Real> System<T> for Run<T> {
         }
         self.t = t_next;
         self.steps += 1;
+        self.sample();
         Ok(())
     }
 

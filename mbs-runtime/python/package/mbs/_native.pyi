@@ -19,6 +19,7 @@ class Info(TypedDict):
     dof: int
     parameters: list[Described]
     inputs: list[Described]
+    memories: list[Described]
     coordinates: list[Described]
     states: list[Described]
     outputs: list[Described]

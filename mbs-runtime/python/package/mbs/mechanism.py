@@ -99,6 +99,8 @@ class Mechanism:
         """The parameters with their declared values."""
         self.inputs: Mapping[str, Quantity] = _by_name(info["inputs"])
         """The inputs with their defaults."""
+        self.memories: Mapping[str, Quantity] = _by_name(info["memories"])
+        """The memories, which clocks set, with their declared values."""
         self.coordinates: Mapping[str, Quantity] = _by_name(info["coordinates"])
         """The coordinates with the declared start."""
         self.states: Mapping[str, Quantity] = _by_name(info["states"])
@@ -111,7 +113,7 @@ class Mechanism:
         """The declared events and what they are."""
 
     def __repr__(self) -> str:
-        lists = ("parameters", "inputs", "coordinates", "states", "outputs")
+        lists = ("parameters", "inputs", "memories", "coordinates", "states", "outputs")
         counts = ", ".join(f"{len(getattr(self, name))} {name}" for name in lists if getattr(self, name))
         return f"<Mechanism {self.name}: {self.dof} degrees of freedom, {counts}>"
 

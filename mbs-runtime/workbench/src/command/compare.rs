@@ -23,7 +23,7 @@ impl Comparison {
     /// Reads `NAME=VALUE,…`.
     pub fn of(info: &'static Info, settings: &Settings, text: &str) -> Result<Self, Error> {
         let (name, list) = quantity::split_setting(text)?;
-        let known = || info.parameters.iter().chain(info.inputs);
+        let known = || info.parameters.iter().chain(info.free_inputs());
         let quantity = known()
             .find(|quantity| quantity.name == name)
             .ok_or_else(|| Error::unknown("parameter or input", name, known().map(|q| q.name)))?;
@@ -39,7 +39,7 @@ impl Comparison {
                 "{most} values can be told apart in a picture; for more there is `sweep`"
             )));
         }
-        let is_input = info.inputs.iter().any(|input| input.name == name);
+        let is_input = info.free_inputs().iter().any(|input| input.name == name);
         let with = |value: &f64| {
             let mut settings = settings.clone();
             let list = if is_input { &mut settings.inputs } else { &mut settings.parameters };

@@ -10,8 +10,10 @@ use serde_json::{Map, Value, json};
 
 use super::json::number;
 use super::options::{self, Named, Values, pairs, signed};
+use crate::console::complain;
 use crate::figure::{Figure, Save};
 use crate::models::Models;
+use crate::notes::held;
 use crate::number::significant;
 use crate::settings::Start;
 use crate::{About, Error, Motion, Picture, Table, Unit, say};
@@ -59,6 +61,7 @@ impl Arguments {
         let values = self.values.constants("inputs that change with time have no equilibrium")?;
         let start = Start::of(model, &values.settings(model)?)?;
         let run = model.start(&start)?;
+        held(model.info()).into_iter().for_each(|note| complain(format_args!("note: {note}")));
         let from = pairs(&self.from)?;
         let about = About { from, at: self.at.clone(), is_relaxed: self.relax, ..About::default() };
         let rest = equilibrium(run.described(), &about.search(&*run)?)?;

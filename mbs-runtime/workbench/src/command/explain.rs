@@ -10,7 +10,7 @@ use mbs_runtime::{Derivation, Info, Knots, Switch};
 
 use super::options::Named;
 use crate::StartValue;
-use crate::derivation::{GIVEN, RATES, energies, escaped, sections, typeset};
+use crate::derivation::{GIVEN, RATES, SAMPLES, energies, escaped, sections, typeset};
 use crate::models::Models;
 use crate::number::{counted, significant};
 use crate::settings::Start;
@@ -84,7 +84,7 @@ fn plain(info: &Info, derivation: &'static Derivation) -> String {
     );
     for (heading, formulas, name) in sections(derivation) {
         let mut lines: Vec<_> = formulas.iter().map(|formula| (name(formula).0, formula.text)).collect();
-        if (heading == GIVEN || heading == RATES) && lines.is_empty() {
+        if [GIVEN, RATES, SAMPLES].contains(&heading) && lines.is_empty() {
             continue;
         }
         if heading == "Energies" {
@@ -164,11 +164,11 @@ fn start(values: &[StartValue], info: &Info) -> String {
 /// The values with which inputs begin; nothing where all are 0.
 fn inputs(info: &Info) -> String {
     let mut text = String::new();
-    if info.inputs.iter().all(|input| input.default == 0.0) {
+    if info.free_inputs().iter().all(|input| input.default == 0.0) {
         return text;
     }
     let mut table = Table::new(["", "at first"]);
-    for input in info.inputs {
+    for input in info.free_inputs() {
         table.row([input.name, &Unit::of(input).text(input.default, 6)]);
     }
     section(&mut text, "Inputs, until they are set", &table);

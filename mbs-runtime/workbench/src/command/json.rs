@@ -63,7 +63,8 @@ pub(super) fn list(models: &[(&str, &dyn Model)]) -> Value {
         json!({
             "name": name, "doc": info.doc, "dof": info.dof,
             "parameters": info.parameters.iter().map(quantity).collect::<Vec<_>>(),
-            "inputs": info.inputs.iter().map(quantity).collect::<Vec<_>>(),
+            "inputs": info.free_inputs().iter().map(quantity).collect::<Vec<_>>(),
+            "memories": info.memories().iter().map(quantity).collect::<Vec<_>>(),
             "coordinates": info.coordinates.iter().take(info.lines).map(coordinate).collect::<Vec<_>>(),
             "states": info.coordinates.iter().skip(info.lines).map(quantity).collect::<Vec<_>>(),
             "outputs": info.outputs.iter().map(output).collect::<Vec<_>>(),

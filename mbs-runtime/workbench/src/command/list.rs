@@ -27,7 +27,12 @@ fn text(models: &[(&str, &dyn Model)]) -> String {
         let info = model.info();
         let summary = info.doc.lines().map(str::trim).find(|line| !line.is_empty()).unwrap_or("");
         table.row([*name, &info.dof.to_string(), "", "", "", summary]);
-        let kinds = [("parameter", info.parameters), ("input", info.inputs), ("output", info.outputs)];
+        let kinds = [
+            ("parameter", info.parameters),
+            ("input", info.free_inputs()),
+            ("memory", info.memories()),
+            ("output", info.outputs),
+        ];
         for (kind, quantities) in kinds {
             for quantity in quantities {
                 let unit = Unit::of(quantity);

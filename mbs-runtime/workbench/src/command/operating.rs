@@ -9,6 +9,7 @@ use mbs_analysis::{Equilibrium, Linearization, Stability};
 use super::options::{Named, Values, pairs};
 use crate::console::{Warnings, complain};
 use crate::models::{Found, Models};
+use crate::notes::held;
 use crate::operating::doubt;
 use crate::{About, Error, Operating, PortNames};
 
@@ -63,6 +64,7 @@ impl Point {
     pub fn operating<'a>(&self, found: &'a Found<'_>) -> Result<Operating<'a>, Error> {
         let values = self.values.constants("inputs are constants of an operating point")?;
         let options = values.asked(found.model().info())?;
+        held(found.model().info()).into_iter().for_each(|note| complain(format_args!("note: {note}")));
         let about = About {
             from: pairs(&self.from)?,
             at: self.at.clone(),

@@ -203,7 +203,7 @@ pub(super) type Given = (String, f64, Unit);
 /// The values of the settings that replace declared ones.
 pub(super) fn given(info: &'static Info, settings: &Settings) -> Vec<Given> {
     let set = settings.parameters.iter().chain(&settings.inputs);
-    let quantity = |name: &str| info.parameters.iter().chain(info.inputs).find(|q| q.name == name);
+    let quantity = |name: &str| info.parameters.iter().chain(info.free_inputs()).find(|q| q.name == name);
     let set = set.filter_map(|(name, value)| Some((name.clone(), *value, Unit::of(quantity(name)?))));
     let from = settings.from.iter();
     set.chain(from.filter_map(|(name, value)| Some((name.clone(), *value, start_state::unit(info, name)?))))

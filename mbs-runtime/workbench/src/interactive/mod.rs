@@ -71,7 +71,7 @@ impl dyn Model + '_ {
             let reason = "a page makes constant steps of the declared scheme; leave this out".into();
             return Err(Error::Name { name: other.into(), reason });
         }
-        let Start { parameters, inputs, .. } = Start::of(self, settings)?;
+        let Start { parameters, inputs, step, .. } = Start::of(self, settings)?;
         let wasm = self.text().ok_or_else(|| without_text(self.info().name))?.wasm()?;
         let recording = self.simulate(settings, &mut |_, _| ())?;
         let picture = Picture::of(&self.motion(settings, &recording)?);
@@ -81,7 +81,7 @@ impl dyn Model + '_ {
         let rates: Map<String, Value> = own.map(|(at, unit)| (at.to_string(), unit)).collect();
         let data = json!({
             "file": file,
-            "step": settings.step,
+            "step": step,
             "end": settings.end,
             "feedback": feedback(settings),
             "columns": columns(info).iter().map(|column| column.heading()).collect::<Vec<_>>(),

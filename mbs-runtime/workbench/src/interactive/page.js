@@ -128,7 +128,8 @@
     due = run.t;
     if (!playing) show();
   }, tell);
-  quantities.form("inputs", session.tables.inputs, data.inputs, data.start.inputs, (values) => {
+  const free = session.tables.inputs.length - session.tables.memories;
+  quantities.form("inputs", session.tables.inputs.slice(0, free), data.inputs, data.start.inputs.slice(0, free), (values) => {
     session.setInputs(values);
     if (!playing) show();
   }, tell);

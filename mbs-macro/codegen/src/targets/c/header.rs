@@ -8,7 +8,7 @@ use super::docs::comment;
 use super::kernels::Kernel;
 use super::names::Struct;
 use super::target::Target;
-use crate::compiled::Results;
+use crate::compiled::{Results, Sampling};
 use crate::targets::words::errors;
 
 pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
@@ -18,6 +18,7 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
         true => ("as they are declared", DEFAULT_INPUTS),
         false => ("0", ""),
     };
+    let clocks = if target.compiled.sampling.clocks > 0 { include_str!("text/clocks.h") } else { "" };
     let parts = [
         comment(&format!("{}\n\n{HEAD}", target.compiled.doc), ""),
         target.fill(include_str!("text/header_head.h")),
@@ -28,6 +29,7 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
             &include_str!("text/header.h")
                 .replace("AT_FIRST", at_first)
                 .replace("DEFAULT_INPUTS", default_inputs)
+                .replace("CLOCKED", clocks)
                 .replace("HELD", &deadbeat(Explicit::held(scheme)))
                 .replace("STAGED", &deadbeat(Explicit::per_stage(scheme))),
         ),
@@ -71,7 +73,9 @@ fn counts(target: &Target<'_>) -> String {
         ("HOISTED", compiled.length(Results::Hoisted)),
         ("STAGES", compiled.choices.scheme.stage_count()),
     ];
-    for (name, count) in others {
+    let Sampling { memories, clocks, samples } = &compiled.sampling;
+    let of_clocks = [("CLOCKS", *clocks), ("MEMORIES", *memories), ("SAMPLES", samples.len())];
+    for (name, count) in others.into_iter().chain(of_clocks.into_iter().filter(|_| *clocks > 0)) {
         let _ = writeln!(text, "    {capitals}_{name} = {count},");
     }
     text + "};\n\n"

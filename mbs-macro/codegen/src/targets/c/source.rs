@@ -26,10 +26,11 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
         target.fill(include_str!("text/init.c")),
         target.fill(default_inputs(target)),
         target.fill(states(target)),
-        target.fill(&beginning(target.compiled, include_str!("text/start.c"))),
+        target.fill(&unsampled(target.compiled, &beginning(target.compiled, include_str!("text/start.c")))),
         target.fill(include_str!("text/step.c")),
         fused.iter().map(Kernel::text).collect(),
-        target.fill(&include_str!("text/results.c").replace("STEP", step)),
+        target.fill(&unsampled(target.compiled, include_str!("text/results.c")).replace("STEP", step)),
+        target.fill(if target.compiled.sampling.clocks > 0 { include_str!("text/clocks.c") } else { "" }),
     ];
     let code = code.concat();
     let tables = tables(target) + &splines(target, &code);
@@ -47,6 +48,15 @@ fn states(target: &Target<'_>) -> &'static str {
 /// The function that gives inputs their declared values; nothing where these are 0.
 fn default_inputs(target: &Target<'_>) -> &'static str {
     if target.compiled.has_declared_inputs() { include_str!("text/inputs.c") } else { "" }
+}
+
+/// A text whose starts and steps are those without samples, where there are clocks.
+fn unsampled(compiled: &Compiled, text: &str) -> String {
+    let mut text = text.to_owned();
+    for name in ["start", "start_from", "step"].into_iter().filter(|_| compiled.sampling.clocks > 0) {
+        text = text.replace(&format!("int NAME_{name}(struct"), &format!("int NAME_{name}_unsampled(struct"));
+    }
+    text
 }
 
 /// A text in which inputs begin at their declared values; where these are 0, they are so already.
@@ -118,6 +128,13 @@ fn tables(target: &Target<'_>) -> String {
     add("static const int NAME_redundant[]", redundant, "0");
     // a dimension with fractions is none of a constraint or a coordinate
     let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, ..]| length).to_string();
+    if compiled.sampling.clocks > 0 {
+        let samples = compiled.sampling.samples.iter();
+        let places = samples.map(|[clock, memory]| format!("{{{clock}, {memory}}}")).collect();
+        let declaration =
+            "/* The clock and the memory of every sample. */\nstatic const int NAME_sample_places[][2]";
+        add(declaration, places, "{0, 0}");
+    }
     let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
     add(
         "/* The power of a length in the dimension. */\nstatic const int NAME_coordinate_length[]",

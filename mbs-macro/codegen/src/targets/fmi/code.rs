@@ -38,7 +38,17 @@ pub fn source(compiled: &Compiled, prefix: &str, references: &References, experi
     .into_iter()
     .chain(PARTS)
     .collect::<String>();
-    beginning(compiled, &text)
+    let clocks = compiled.sampling.clocks;
+    let clocked = if clocks > 0 { include_str!("text/clocks.c") } else { include_str!("text/no_clocks.c") };
+    let text =
+        beginning(compiled, &text).replace("CLOCKED", clocked).replace("CLOCK_COUNT", &clocks.to_string());
+    let unsampled = |text: String, name: &str| match clocks > 0 {
+        true => text.replace(&format!("NAME_{name}("), &format!("NAME_{name}_unsampled(")),
+        false => text,
+    };
+    ["start", "step"]
+        .into_iter()
+        .fold(text, unsampled)
         .replace("NAME_STATES", &format!("{prefix}_{states}"))
         .replace("STATE_COUNT", &format!("{capitals}_{}", states.to_uppercase()))
         .replace("NAME", prefix)

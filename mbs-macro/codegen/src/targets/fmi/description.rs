@@ -145,6 +145,7 @@ fn variable(version: Version, reference: usize, it: &Variable) -> Element {
         Role::Tunable => ("parameter", "tunable", Some("exact")),
         // an input is always exact, and says nothing of it
         Role::Input => ("input", "continuous", None),
+        Role::Memory => ("local", "discrete", Some("calculated")),
         Role::Local => ("local", "continuous", Some("calculated")),
         Role::Output => ("output", "continuous", Some("calculated")),
     };

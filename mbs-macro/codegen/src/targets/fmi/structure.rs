@@ -86,7 +86,12 @@ impl<'a> Dependencies<'a> {
         };
         let of = |symbol: &Symbol| match self.compiled.input(*symbol) {
             Input::Time => at(Group::Time, 0),
-            Input::Input(place) => at(Group::Inputs, place),
+            // a memory holds, so that nothing depends on it between samples
+            Input::Input(place)
+                if place < self.references.of(Group::Memories) - self.references.of(Group::Inputs) =>
+            {
+                at(Group::Inputs, place)
+            }
             Input::Position(place) => placed(Group::Positions, 0, place),
             Input::Velocity(place) => placed(Group::Velocities, 1, place),
             Input::StatePosition(place) => state(Group::Positions, place),

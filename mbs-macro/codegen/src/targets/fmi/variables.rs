@@ -16,6 +16,8 @@ pub enum Role {
     Tunable,
     /// Set at any time.
     Input,
+    /// Set by a clock, and held between its samples.
+    Memory,
     /// Calculated, and of interest.
     Local,
     /// Calculated, and offered to others.
@@ -41,7 +43,7 @@ pub struct References {
     pub starts: [(&'static str, usize); GROUPS],
 }
 
-const GROUPS: usize = 9;
+const GROUPS: usize = 10;
 
 impl References {
     pub fn new(compiled: &Compiled) -> Self {
@@ -49,7 +51,8 @@ impl References {
         let groups = [
             ("TIME", 1),
             ("PARAMETERS", compiled.parameters.len()),
-            ("INPUTS", compiled.inputs.len()),
+            ("INPUTS", compiled.inputs.len() - compiled.sampling.memories),
+            ("MEMORIES", compiled.sampling.memories),
             ("POSITIONS", coordinates),
             ("VELOCITIES", coordinates),
             ("ACCELERATIONS", coordinates),
@@ -78,10 +81,11 @@ impl References {
 pub enum Group {
     Time,
     Inputs = 2,
+    Memories,
     Positions,
     Velocities,
     Accelerations,
-    Outputs = 7,
+    Outputs = 8,
     Events,
 }
 
@@ -99,10 +103,12 @@ pub fn all(compiled: &Compiled, references: &References) -> Vec<Variable> {
         bounds: bounds(compiled, at),
         ..Variable::of(&it.quantity, role)
     }));
-    let inputs = compiled.inputs.iter();
+    let (inputs, memories) = compiled.inputs.split_at(compiled.inputs.len() - compiled.sampling.memories);
+    let inputs = inputs.iter();
     all.extend(
         inputs.map(|it| Variable { start: Some(it.value), ..Variable::of(&it.quantity, Role::Input) }),
     );
+    all.extend(memories.iter().map(|it| Variable::of(&it.quantity, Role::Memory)));
     for order in 0..3_i16 {
         let names = compiled.coordinates.iter().enumerate();
         all.extend(names.map(|(at, it)| {
@@ -133,7 +139,23 @@ pub fn all(compiled: &Compiled, references: &References) -> Vec<Variable> {
     }));
     all.extend(compiled.outputs.iter().map(|it| Variable::of(it, Role::Output)));
     all.extend(compiled.events.iter().map(|it| Variable::of(&it.quantity, Role::Local)));
+    with_names_of_their_own(&mut all);
     all
+}
+
+/// Names are unique for an importer. An output may be called as what it shows: then that is called `memory(u)`, where a
+/// clock sets it, and else the output `output(u)`.
+fn with_names_of_their_own(all: &mut [Variable]) {
+    for at in 0..all.len() {
+        let Some(other) = all[..at].iter().position(|other| other.name == all[at].name) else { continue };
+        let at = if all[other].role == Role::Memory { other } else { at };
+        let word = match all[at].role {
+            Role::Memory => "memory",
+            Role::Output => "output",
+            _ => "event",
+        };
+        all[at].name = format!("{word}({})", all[at].name);
+    }
 }
 
 impl Variable {

@@ -17,6 +17,7 @@ pub fn emit(compiled: &Compiled) -> TokenStream {
         });
     let [kinetic, potential] = [kinetic_energy, potential_energy].map(|energy| formula(energy, runtime));
     let given = compiled.derivation.given.iter().map(|it| formula(it, runtime));
+    let samples = compiled.derivation.samples.iter().map(|it| formula(it, runtime));
     let order = order.iter().map(|step| {
         let Elimination { unknowns, pivot, latex, is_watched, .. } = step;
         quote!(#runtime::Elimination { unknowns: &[#(#unknowns),*], pivot: #pivot, latex: #latex, is_watched: #is_watched })
@@ -26,6 +27,7 @@ pub fn emit(compiled: &Compiled) -> TokenStream {
             given: &[#(#given),*],
             phi: &[#phi], phi_q: &[#phi_q], phi_t: &[#phi_t], phi_dot: &[#phi_dot],
             gamma: &[#gamma], mass: &[#mass], forces: &[#forces], rates: &[#rates],
+            samples: &[#(#samples),*],
             kinetic_energy: #kinetic, potential_energy: #potential,
             strategy: #strategy, order: &[#(#order),*],
         }

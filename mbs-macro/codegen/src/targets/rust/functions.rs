@@ -9,6 +9,7 @@ use super::derivation;
 use super::docs;
 use super::info;
 use super::matrices;
+use super::moments;
 use super::names::{Fields, Names, field};
 use super::program::body;
 use super::sketch;
@@ -16,7 +17,7 @@ use super::solver;
 use super::stages;
 use super::step;
 use super::tokens;
-use crate::compiled::{Argument, Compiled, FunctionId, Knots, Property, Results};
+use crate::compiled::{Argument, Compiled, FunctionId, Property, Results};
 
 /// Systems with more unknowns are not forced into the step.
 const LARGEST_INLINED: usize = 64;
@@ -132,7 +133,9 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
         let (statements, values) = (&body.statements, body.array(0..compiled.events.len()));
         quote!(#statements #values)
     };
-    let (next_corner, (switches, switch_values)) = (next_corner(compiled, names), switches(compiled, names));
+    let (next_corner, (switches, switch_values)) =
+        (moments::next_corner(compiled, names), moments::switches(compiled, names));
+    let samples = moments::samples(compiled, names);
     let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
     let states = states(compiled, names, &fields);
     let kernels = kernels(compiled, names, &fields, are_on_arrays);
@@ -208,58 +211,8 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             fn events(&self, at: &#state, inputs: &#inputs) -> [T; #events] { #event_values }
             #next_corner
             #switch_values
+            #samples
             fn points(&self, t: T, q: &#q) -> [[T; 2]; #points] { #places }
-        }
-    }
-}
-
-fn knots(Knots { at, period }: &Knots, names: &Names) -> TokenStream {
-    let (runtime, period) = (&names.runtime, period.unwrap_or_default());
-    quote!(#runtime::Knots { at: &[#(#at),*], period: #period })
-}
-
-/// The switches and their values; nothing without one.
-fn switches(compiled: &Compiled, names: &Names) -> (TokenStream, TokenStream) {
-    if compiled.switches.is_empty() {
-        return (TokenStream::new(), TokenStream::new());
-    }
-    let Names { runtime, state, inputs, .. } = names;
-    let inputs = &inputs.of_t;
-    let switches = compiled.switches.iter().map(|(name, at)| {
-        let knots = knots(at, names);
-        quote!(#runtime::Switch { name: #name, knots: #knots })
-    });
-    let body = body(compiled, names, FunctionId::Switches, &Access::of_state());
-    let (statements, values) = (&body.statements, body.array(0..compiled.switches.len()));
-    let declared = quote!(const SWITCHES: &'static [#runtime::Switch] = &[#(#switches),*];);
-    let written = quote! {
-        fn switches(&self, at: &#state, inputs: &#inputs, values: &mut [T]) {
-            #statements
-            for (to, from) in values.iter_mut().zip(#values) {
-                *to = from;
-            }
-        }
-    };
-    (declared, written)
-}
-
-/// Where time passes a knot; nothing without one.
-fn next_corner(compiled: &Compiled, names: &Names) -> TokenStream {
-    if compiled.corners.is_empty() {
-        return TokenStream::new();
-    }
-    let runtime = &names.runtime;
-    let body = body(compiled, names, FunctionId::Corners, &Access::of_position());
-    let (statements, values) = (&body.statements, body.array(0..2 * compiled.corners.len()));
-    let (values_count, count) = (2 * compiled.corners.len(), compiled.corners.len());
-    let [values_count, count] = [values_count, count].map(Literal::usize_unsuffixed);
-    let knots = compiled.corners.iter().map(|it| knots(it, names));
-    quote! {
-        fn next_corner(&self, t: T) -> T {
-            const KNOTS: [#runtime::Knots; #count] = [#(#knots),*];
-            #statements
-            let lines: [T; #values_count] = #values;
-            #runtime::__private::next_corner(t, lines.as_chunks().0, &KNOTS)
         }
     }
 }

@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::names::Names;
-use crate::compiled::{Compiled, Count, Crossing, Event, Pivot, Quantity};
+use crate::compiled::{Compiled, Count, Crossing, Event, Pivot, Quantity, Sampling};
 
 pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
@@ -49,6 +49,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             }
         }
     });
+    let sampling = sampling(&compiled.sampling, runtime);
     let start_pivots = pivots(&compiled.start_pivots, runtime);
     let pivots = pivots(&compiled.pivots, runtime);
     let functions = compiled.counts().into_iter().map(|function| {
@@ -74,9 +75,22 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             #name, #doc, #dof,
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], #lines, &[#(#outputs),*],
             &[#(#events),*], &[#(#constraints),*], &[#(#states),*], &[#(#redundant),*],
-            &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, &[#(#functions),*],
+            &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, #sampling, &[#(#functions),*],
         )
     }
+}
+
+/// The clocks, and what they set.
+fn sampling(Sampling { memories, clocks, samples }: &Sampling, runtime: &TokenStream) -> TokenStream {
+    if *clocks == 0 && *memories == 0 {
+        return quote!(#runtime::Sampling::NONE);
+    }
+    let [memories, clocks] = [memories, clocks].map(|it| Literal::usize_unsuffixed(*it));
+    let samples = samples.iter().map(|[clock, memory]| {
+        let [clock, memory] = [clock, memory].map(|it| Literal::usize_unsuffixed(*it));
+        quote!([#clock, #memory])
+    });
+    quote!(#runtime::Sampling { memories: #memories, clocks: #clocks, samples: &[#(#samples),*] })
 }
 
 /// A list of pivots by the names of what they pair.

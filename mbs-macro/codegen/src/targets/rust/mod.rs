@@ -10,6 +10,7 @@ mod functions;
 mod info;
 mod long;
 mod matrices;
+mod moments;
 mod names;
 mod on_pairs;
 mod places;

@@ -34,6 +34,12 @@ pub fn tables(compiled: &Compiled) -> String {
         ("doc", text(&compiled.doc)),
         ("parameters", settings(&compiled.parameters)),
         ("inputs", settings(&compiled.inputs)),
+        ("memories", compiled.sampling.memories.to_string()),
+        ("clocks", compiled.sampling.clocks.to_string()),
+        (
+            "samples",
+            array(compiled.sampling.samples.iter().map(|[clock, memory]| format!("[{clock},{memory}]"))),
+        ),
         ("coordinates", quantities(&compiled.coordinates)),
         ("lines", compiled.line_count.to_string()),
         ("outputs", quantities(&compiled.outputs)),

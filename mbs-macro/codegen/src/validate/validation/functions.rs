@@ -39,7 +39,14 @@ impl Point<'_> {
         let outputs: Vec<_> = model.outputs.iter().map(|output| self.value(output.value)).collect();
         self.agree(FunctionId::Outputs, &outputs)?;
         let events: Vec<_> = model.events.iter().map(|event| self.value(event.value)).collect();
-        self.agree(FunctionId::Events, &events)
+        self.agree(FunctionId::Events, &events)?;
+        let clocks = model.clocks.iter();
+        let times: Vec<_> =
+            clocks.clone().flat_map(|it| [self.value(it.period), self.value(it.offset)]).collect();
+        self.agree(FunctionId::Clocks, &times)?;
+        let samples: Vec<_> =
+            clocks.flat_map(|it| it.sets.iter().map(|(_, value)| self.value(*value))).collect();
+        self.agree(FunctionId::Samples, &samples)
     }
 
     /// A function gives what is expected, as far as rounding lets one tell.

@@ -98,5 +98,5 @@ NAME_real NAME_velocity_violation(const struct NAME_run *run);
 const char *NAME_words(int code);
 const char *NAME_where(const struct NAME_run *run, int code);
 
-/** The equations. Results must not lie where arguments do. */
+CLOCKED/** The equations. Results must not lie where arguments do. */
 

@@ -66,7 +66,7 @@ static double *known(struct rates *rates, uint32_t reference)
     if (reference == AT_TIME) {
         return &rates->time;
     }
-    if (lies_in(reference, AT_INPUTS, AT_POSITIONS)) {
+    if (lies_in(reference, AT_INPUTS, AT_MEMORIES)) {
         return PLACES(rates->inputs) + (reference - AT_INPUTS);
     }
     for (int j = 0; j < STATE_COUNT; j++) {

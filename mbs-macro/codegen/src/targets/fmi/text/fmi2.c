@@ -191,6 +191,9 @@ EXPORT fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
     static const fmi2EventInfo nothing;
     ASK_2(EVENT_MODE)
     *info = nothing;
+    take_samples(&it->now);
+    info->nextEventTimeDefined = isfinite(next_sample(&it->now));
+    info->nextEventTime = info->nextEventTimeDefined ? next_sample(&it->now) - it->now.shift : 0.0;
     return fmi2OK;
 }
 

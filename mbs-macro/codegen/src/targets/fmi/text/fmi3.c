@@ -199,8 +199,10 @@ EXPORT fmi3Status fmi3UpdateDiscreteStates(
     fmi3Boolean *states_changed, fmi3Boolean *has_next_event, fmi3Float64 *next_event)
 {
     ASK_3(EVENT_MODE)
-    *needs_update = *terminate = *nominals_changed = *states_changed = *has_next_event = false;
-    *next_event = 0.0;
+    *needs_update = *terminate = *nominals_changed = *states_changed = false;
+    take_samples(&it->now);
+    *has_next_event = isfinite(next_sample(&it->now));
+    *next_event = *has_next_event ? next_sample(&it->now) - it->now.shift : 0.0;
     return fmi3OK;
 }
 

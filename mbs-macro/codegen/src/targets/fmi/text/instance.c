@@ -30,6 +30,8 @@ struct memory {
     struct NAME_coordinates acceleration;
     struct NAME_outputs outputs;
     double events[CAPS_EVENTS + 1];
+    /* when the clocks sample next, in the time of the mechanism */
+    double samples[CLOCK_COUNT + 1];
 };
 
 struct instance {

@@ -13,7 +13,11 @@ static int enter_initialization(struct instance *it, double start_time)
 
 static int exit_initialization(struct instance *it)
 {
-    const int code = solve(it);
+    int code = start(it);
+    if (code == CAPS_OK) {
+        take_samples(&it->now);
+        code = solve(it);
+    }
     if (code != CAPS_OK) {
         return say_code(it, WRONG, code);
     }
@@ -108,30 +112,17 @@ static int change_step(struct memory *now, double step)
     return NAME_set_feedback(&now->run, gains.alpha * scale, gains.beta * scale, gains.is_held);
 }
 
-/* Leads to the end of a communication step by steps of equal length, as long as they are meant to
-   be or a little shorter. Inputs are constant on the way. */
-static int advance(struct instance *it, double point, double length)
+/* Leads to a time by steps of equal length, as long as they are meant to be or a little shorter. Inputs are constant
+   on the way. */
+static int lead_to(struct memory *now, double end, double rounding)
 {
-    struct memory *const now = &it->now;
     struct NAME_run *const run = &now->run;
-    const double end = point + length + now->shift;
     const double span = end - run->state.t;
-    if (!(isfinite(span) && length > 0.0)) {
-        return say(it, WRONG, "a communication step has to be positive and finite");
-    }
-    /* of the times of importer and mechanism */
-    const double rounding =
-        8.0 * 2.220446049250313e-16 * (fabs(point) + length + fabs(now->shift) + fabs(run->start_time));
-    if (fabs(point + now->shift - run->state.t) > 1e-3 * length + rounding) {
-        return say(
-            it, WRONG, "the communication point is %.17g s, but the last step ended at %.17g s", point,
-            run->state.t - now->shift);
-    }
     const double count = ceil((span - rounding) / STEP);
     const double steps = count < 1.0 ? 1.0 : count;
     const int is_whole = fabs(span - steps * STEP) <= rounding;
-    int code = start(it);
-    if (code == CAPS_OK && (!is_whole || run->step != STEP)) {
+    int code = CAPS_OK;
+    if (!is_whole || run->step != STEP) {
         code = change_step(now, is_whole ? STEP : span / steps);
     }
     run->inputs = now->inputs;
@@ -139,7 +130,36 @@ static int advance(struct instance *it, double point, double length)
     for (double step = 0.0; code == CAPS_OK && step < steps; step += 1.0) {
         code = NAME_step(run);
     }
-    now->time = code == CAPS_OK ? point + length : run->state.t - now->shift;
-    return code == CAPS_OK ? FINE : say_code(it, WRONG, code);
+    return code;
 }
 
+/* Leads to the end of a communication step, from sample to sample of the clocks. */
+static int advance(struct instance *it, double point, double length)
+{
+    struct memory *const now = &it->now;
+    struct NAME_run *const run = &now->run;
+    const double end = point + length + now->shift;
+    if (!(isfinite(end - run->state.t) && length > 0.0)) {
+        return say(it, WRONG, "a communication step has to be positive and finite");
+    }
+    /* of the times of importer, mechanism and clocks */
+    const double size = fabs(point) + length + fabs(now->shift) + fabs(run->start_time) + clock_size(now);
+    const double rounding = 8.0 * 2.220446049250313e-16 * size;
+    if (fabs(point + now->shift - run->state.t) > 1e-3 * length + rounding) {
+        return say(
+            it, WRONG, "the communication point is %.17g s, but the last step ended at %.17g s", point,
+            run->state.t - now->shift);
+    }
+    int code = start(it);
+    for (double sample = next_sample(now); code == CAPS_OK && sample < end - rounding; sample = next_sample(now)) {
+        code = lead_to(now, sample, rounding);
+        now->time = run->state.t - now->shift;
+        take_samples(now);
+    }
+    code = code == CAPS_OK ? lead_to(now, end, rounding) : code;
+    now->time = code == CAPS_OK ? point + length : run->state.t - now->shift;
+    if (code == CAPS_OK) {
+        take_samples(now);
+    }
+    return code == CAPS_OK ? FINE : say_code(it, WRONG, code);
+}

@@ -3,7 +3,7 @@
 #define ELEMENTS(vector) ((const double *)&(vector))
 #define PLACES(vector) ((double *)&(vector))
 
-/* Makes mechanism and start anew where parameters have changed. A run that goes on keeps its state, since no
+CLOCKED/* Makes mechanism and start anew where parameters have changed. A run that goes on keeps its state, since no
    constraint knows of the parameters that may change then. */
 static int start(struct instance *it)
 {
@@ -28,6 +28,7 @@ static int start(struct instance *it)
     }
     now->is_started = 1;
     now->is_solved = 0;
+    begin_clocks(now);
     return CAPS_OK;
 }
 
@@ -175,7 +176,7 @@ static int set(struct instance *it, const uint32_t *references, size_t count, co
             PLACES(now->parameters)[parameter] = values[at];
             now->is_tuned = now->is_solved = 0;
             now->is_started = now->is_started && !is_early;
-        } else if (lies_in(reference, AT_INPUTS, AT_POSITIONS)) {
+        } else if (lies_in(reference, AT_INPUTS, AT_MEMORIES)) {
             PLACES(now->inputs)[reference - AT_INPUTS] = values[at];
             now->is_solved = 0;
         } else if (reference < AT_END) {

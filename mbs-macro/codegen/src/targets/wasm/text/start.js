@@ -29,6 +29,9 @@ class Start {
     this.projectVelocities("velocity_correction");
     this.check(this.q, this.v);
     this.begin();
+    const free = this.inputs.length - this.tables.memories;
+    this.tables.inputs.slice(free).forEach((memory, at) => { this.inputs[free + at] = memory.value; });
+    this.sample();
   }
 
   // What is near the present state and consistent becomes the start of a run: after parameters have
@@ -59,6 +62,37 @@ class Start {
     this.select(stage);
     this.complete(this.t, stage, this.q, this.v);
     this.size = this.measure();
+    this.clocks().forEach(([period, offset]) => {
+      const slack = 8 * EPSILON, count = this.stepsOf(period), first = (this.startTime - offset) / this.h;
+      const rounding = slack * (1 + (Math.abs(this.startTime) + Math.abs(offset)) / this.h);
+      const isWhole = count >= 1 && Math.abs(period / this.h - count) <= slack * count;
+      if (!(isWhole && Math.abs(first - Math.floor(first + 0.5)) <= rounding)) this.fail("BAD_PERIOD");
+    });
+  }
+
+  // Period and offset of every clock.
+  clocks() {
+    const { clockTimes: times } = this.mechanism, count = this.tables.clocks;
+    if (count) this.mechanism.call("clocks", times);
+    return Array.from({ length: count }, (_, clock) => times.slice(2 * clock, 2 * clock + 2));
+  }
+
+  // The nearest whole number of steps to some seconds.
+  stepsOf(seconds) {
+    return Math.floor(seconds / this.h + 0.5);
+  }
+
+  // Takes the samples that are due, in the order of the clocks.
+  sample() {
+    const m = this.mechanism;
+    this.clocks().forEach(([period, offset], clock) => {
+      const count = this.stepsOf(period), steps = this.stepsOf(this.startTime - offset) + this.steps;
+      if (steps - Math.floor(steps / count) * count !== 0) return;
+      m.call("samples", this.t, this.q, this.v, this.inputs, m.sampled);
+      this.tables.samples.forEach(([of, memory], at) => {
+        if (of === clock) this.inputs[memory] = m.sampled[at];
+      });
+    });
   }
 
   // Positions on phi = 0 by Newton's iteration.

@@ -4,6 +4,7 @@ class Run extends Start {
   step() {
     const tNext = this.startTime + (this.steps + 1) * this.h;
     if (!(this.tables.fused && this.stepAtOnce(tNext))) this.stepByStages(tNext);
+    this.sample();
   }
 
   // All stages in one function; false if the step was not calm.

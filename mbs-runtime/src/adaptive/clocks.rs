@@ -1,0 +1,74 @@
+//! Samples of clocks in runs to a tolerance: a step ends at each.
+//!
+//! A sample is taken before the next step, or where the run is looked at. Until then the last step is known with the
+//! memories that it was taken with.
+
+use super::crossing::bits;
+use super::events::{Happened, MOST_EVENTS, Watched};
+use super::{Adaptive, AdaptiveScheme, Dynamics};
+use crate::equations::At;
+use crate::samples::{is_sample, next_sample, sample_at};
+
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
+    /// The first time behind the present one at which a step ends: at a corner of the accelerations, or at a sample.
+    pub(super) fn next_corner(&self) -> D::Real {
+        let corner = self.dynamics.next_corner(self.now.t);
+        let sample = next_sample(self.dynamics.equations(), self.now.t, self.sampled);
+        if sample < corner { sample } else { corner }
+    }
+
+    /// True if a sample is due at the present time that has not been taken. Between steps it is not before its time, where a
+    /// table may jump; at the end of a run it is if it is before that by a rounding.
+    fn is_due(&self, is_exact: bool) -> bool {
+        is_sample(self.dynamics.equations(), self.now.t, self.sampled, is_exact)
+    }
+
+    /// Takes the samples that are due at the present time, once.
+    pub(super) fn sample(&mut self, is_exact: bool) {
+        if !self.is_due(is_exact) {
+            return;
+        }
+        // what lies behind was computed with the memories of before
+        self.inputs_mut();
+        let Self { dynamics, inputs, now, all, .. } = self;
+        dynamics.complete(now.t, &now.q, &now.v, all);
+        let [q, v] = all;
+        let at = At { t: now.t, q: q.as_ref(), v: v.as_ref() };
+        let sampling = dynamics.equations().info().sampling;
+        let mut present = dynamics.inputs_at(now.t, inputs);
+        dynamics.with_inputs(&mut present, |present| {
+            sample_at(dynamics.equations(), at, present);
+            dynamics.with_inputs(inputs, |own| sampling.set_memories(own, present));
+        });
+        self.sampled = Some(self.now.t);
+    }
+
+    /// Takes the samples that are due; a value that changes its sign by them is an event at the present time.
+    pub(super) fn sample_and_look(&mut self, is_exact: bool, watched: &mut Watched<'_, D>) {
+        if !self.is_due(is_exact) {
+            return;
+        }
+        let before = self.watched_now(watched);
+        self.sample(is_exact);
+        let after = self.watched_now(watched);
+        for (index, bit) in bits(watched.count) {
+            let direction = (watched.direction)(index);
+            let met = before.get(index).zip(after.get(index)).and_then(|(a, b)| direction?.met(*a, *b));
+            let Happened { all, rising, due, .. } = &mut self.happened;
+            if let Some(is_rising) = met {
+                *all |= bit;
+                *due |= bit;
+                *rising = *rising & !bit | if is_rising { bit } else { 0 };
+            }
+        }
+    }
+
+    /// The watched values of the present state.
+    fn watched_now(&mut self, watched: &mut Watched<'_, D>) -> [D::Real; MOST_EVENTS] {
+        let Self { dynamics, inputs, now, all, .. } = self;
+        core::array::from_fn(|index| match index < watched.count {
+            true => watched.value(index, (&*dynamics, &*inputs), now, all),
+            false => D::Real::default(),
+        })
+    }
+}
