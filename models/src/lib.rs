@@ -34,6 +34,8 @@
 //! | [`BoomCylinder`] | 1 | pressures as states, a valve, a force by a law between two points |
 //! | [`ChaplyginSleigh`] | 2 | an equation between rates: an edge that does not slip |
 //! | [`DifferentialDrive`] | 2 | wheels that roll and do not slide, torques as inputs |
+//! | [`CartPole`] | 2 | a sampled controller with an observer |
+//! | [`PathFollower`] | 2 | two clocks, one controller within the other |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
 //! | [`Chebyshev`] | 0 | nearly straight line |
@@ -54,6 +56,7 @@ pub mod boom_cylinder;
 pub mod brake;
 pub mod cam_follower;
 pub mod cart_pendulum;
+pub mod cart_pole;
 pub mod chaplygin_sleigh;
 pub mod chebyshev;
 pub mod crane_rope;
@@ -74,6 +77,7 @@ pub mod metronome;
 pub mod n_four_bar;
 pub mod n_pendulum;
 pub mod pantograph;
+pub mod path_follower;
 pub mod peaucellier;
 pub mod pendulum;
 pub mod planetary_gear;
@@ -95,6 +99,7 @@ pub use boom_cylinder::{BoomCylinder, BoomCylinderInputs, BoomCylinderParameters
 pub use brake::{Brake, BrakeInputs, BrakeParameters};
 pub use cam_follower::{CamFollower, CamFollowerParameters};
 pub use cart_pendulum::{CartPendulum, CartPendulumInputs, CartPendulumParameters};
+pub use cart_pole::{CartPole, CartPoleInputs, CartPoleParameters};
 pub use chaplygin_sleigh::{ChaplyginSleigh, ChaplyginSleighParameters};
 pub use chebyshev::{Chebyshev, ChebyshevParameters};
 pub use crane_rope::{CraneRope, CraneRopeParameters};
@@ -121,6 +126,7 @@ pub use n_pendulum::{
     NPendulum40, NPendulum40Parameters,
 };
 pub use pantograph::{Pantograph, PantographParameters};
+pub use path_follower::{PathFollower, PathFollowerInputs, PathFollowerParameters};
 pub use peaucellier::{Peaucellier, PeaucellierParameters};
 pub use pendulum::Pendulum;
 pub use planetary_gear::{PlanetaryGear, PlanetaryGearInputs, PlanetaryGearParameters};

@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 46] = entries! {
+static LIBRARY: [Entry; 48] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -63,6 +63,8 @@ static LIBRARY: [Entry; 46] = entries! {
     "boom-cylinder", "boom_cylinder.rs", "BoomCylinder";
     "chaplygin-sleigh", "chaplygin_sleigh.rs", "ChaplyginSleigh";
     "differential-drive", "differential_drive.rs", "DifferentialDrive";
+    "cart-pole", "cart_pole.rs", "CartPole";
+    "path-follower", "path_follower.rs", "PathFollower";
     "peaucellier", "peaucellier.rs", "Peaucellier";
     "hart-inversor", "hart_inversor.rs", "HartInversor";
     "chebyshev", "chebyshev.rs", "Chebyshev";
@@ -96,6 +98,8 @@ impl Entry {
             "brake" => Settings { end: 16.0, ..Settings::default() },
             "engine" => Settings { end: 2.0, ..Settings::default() },
             "boom-cylinder" => Settings { end: 8.0, ..Settings::default() },
+            "cart-pole" => Settings { end: 5.0, ..Settings::default() },
+            "path-follower" => Settings { end: 12.0, ..Settings::default() },
             // as far as a page shows a turn
             "chaplygin-sleigh" | "differential-drive" => Settings { end: 4.0, ..Settings::default() },
             _ => Settings::default(),

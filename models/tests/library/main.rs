@@ -13,12 +13,13 @@ mod texts;
 
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
-    AndrewsSqueezer, BlockOnIncline, BoomCylinder, Brake, CamFollower, CartPendulum, ChaplyginSleigh,
-    Chebyshev, CraneRope, DcMotor, DifferentialDrive, DoublePendulum, Engine, Excavator, FourBar,
-    FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome, NFourBar1,
-    NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40, Pantograph,
-    Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree,
-    SpringMassDamper, Suspension, Tipper, TogglePress, TrammelOfArchimedes, VEngine, WattLinkage,
+    AndrewsSqueezer, BlockOnIncline, BoomCylinder, Brake, CamFollower, CartPendulum, CartPole,
+    ChaplyginSleigh, Chebyshev, CraneRope, DcMotor, DifferentialDrive, DoublePendulum, Engine, Excavator,
+    FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome,
+    NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40,
+    Pantograph, PathFollower, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank,
+    SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress, TrammelOfArchimedes, VEngine,
+    WattLinkage,
 };
 
 use paths::STRIDE;
@@ -166,6 +167,10 @@ library! {
     };
     ChaplyginSleigh: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     DifferentialDrive: 0.5e-3, 10.0, [], |_, at, u| u.left_torque*at.v.alpha + u.right_torque*at.v.beta;
+    CartPole: 0.5e-3, 10.0, ["motor"], |p, at, u| (p.motor*u.push + u.disturbance)*at.v.x;
+    PathFollower: 0.5e-3, 10.0, ["motors"], |p, at, u| {
+        p.motors*(u.left_torque*at.v.alpha + u.right_torque*at.v.beta)
+    };
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Chebyshev: 0.5e-3, 10.0, [], |_, _, _| 0.0;

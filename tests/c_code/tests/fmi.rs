@@ -12,8 +12,8 @@ use mbs_live::{Experiment, Run, Text};
 use mbs_runtime::System;
 use tempfile::TempDir;
 
-/// With drives and without, tables, redundant constraints, own states and loops of long programs.
-const MECHANISMS: [&str; 7] = [
+/// With drives and without, tables, redundant constraints, own states and loops of long programs, clocks.
+const MECHANISMS: [&str; 8] = [
     "slider-crank",
     "slider-crank-free",
     "cam-follower",
@@ -21,6 +21,7 @@ const MECHANISMS: [&str; 7] = [
     "tipper",
     "dc-motor",
     "n-pendulum-40",
+    "path-follower",
 ];
 
 /// Of which nothing is integrated, and without constraints and parameters; C has no arrays without elements. And one

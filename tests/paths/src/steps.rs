@@ -63,7 +63,11 @@ impl<S: Mechanism<Real: Lane>, X: Method, const N: usize> InLanes<S, X, N> {
     pub fn beside_others(from: &Simulation<S, X>) -> Result<Self, Error> {
         let mut members = [*from; N];
         for (at, member) in members.iter_mut().rev().enumerate() {
-            let share = 1.0 - at as f64 / 64.0;
+            // shorter steps lead to the samples of clocks, too
+            let share = match S::INFO.sampling.clocks {
+                0 => 1.0 - at as f64 / 64.0,
+                _ => 1.0 / (1.0 + at as f64),
+            };
             *member = with_step(from, from.state(), share * from.step_size().to_f64())?;
         }
         Ok(Self(Pack::new(members)))
@@ -89,7 +93,16 @@ pub fn with_step<S: Mechanism, X: Method>(
     step: f64,
 ) -> Result<Simulation<S, X>, Error> {
     let builder = Simulation::builder(*from.mechanism(), step).baumgarte(*from.baumgarte());
-    builder.from_state(state).inputs(*from.inputs()).as_declared().build()
+    builder.from_state(state).inputs(unsampled(from)).as_declared().build()
+}
+
+/// The inputs of a run, with memories as they are declared: another run from its start takes the first samples anew.
+fn unsampled<M: Mechanism, X: Method>(from: &Simulation<M, X>) -> M::Inputs {
+    let (mut inputs, declared) = (from.inputs().into_array(), M::Inputs::default().into_array());
+    let free = M::INFO.free_inputs().len();
+    let memories = inputs.as_mut().iter_mut().zip(declared.as_ref()).skip(free);
+    memories.for_each(|(memory, declared)| *memory = *declared);
+    M::Inputs::from_array(inputs)
 }
 
 /// The same in single precision.
@@ -100,7 +113,7 @@ pub fn narrowed<M: Mechanism<Real = f64>, X: Method>(
     let State { t, q, v } = from.state();
     let builder = Simulation::builder(mechanism, from.step_size()).baumgarte(*from.baumgarte());
     let start = State { t: t as f32, q: cast(q), v: cast(v) };
-    builder.from_state(start).inputs(cast(*from.inputs())).as_declared().build()
+    builder.from_state(start).inputs(cast(unsampled(from))).as_declared().build()
 }
 
 /// Component by component, rounded to the other scalar.
