@@ -24,7 +24,7 @@ pub struct Derivation {
     pub forces: &'static [Formula],
     /// The rates of the states of the declaration's own.
     pub rates: &'static [Formula],
-    /// What clocks set memories to, in terms of what is before the sample; `by` is the period of the clock.
+    /// The values that clocks set memories to, by those before the sample; `by` is the period of the clock.
     pub samples: &'static [Formula],
     /// The kinetic energy.
     pub kinetic_energy: Formula,

@@ -55,9 +55,9 @@ pub struct Info {
 /// The clocks of a mechanism, and the memories that they set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
-    /// How many of the inputs, at their end, are memories: the mechanism sets them, and no program.
+    /// The number of memories, the last of the inputs: the mechanism sets them, and no program.
     pub memories: usize,
-    /// How many clocks there are.
+    /// The number of clocks.
     pub clocks: usize,
     /// Of every value that a sample gives, its clock and its memory, by its place among the inputs.
     pub samples: &'static [[usize; 2]],

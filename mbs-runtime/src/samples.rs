@@ -72,7 +72,7 @@ impl Grid {
         floor(seconds / self.step + 0.5)
     }
 
-    /// How many steps after its last sample a clock is, of how many from sample to sample.
+    /// The number of steps since the last sample of a clock, and that from sample to sample.
     fn place<T: Real>(&self, steps: u64, [period, offset]: [T; 2]) -> [f64; 2] {
         let count = self.count(period.to_f64());
         let steps = self.count(self.start - offset.to_f64()) + steps as f64;
@@ -88,7 +88,7 @@ impl Grid {
         }
     }
 
-    /// How many steps lead to the next sample of any clock.
+    /// The number of steps to the next sample of any clock.
     pub fn steps_to_sample<T: Real>(&self, steps: u64, equations: &dyn Equations<T>) -> u64 {
         let clocks = 0..equations.info().sampling.clocks;
         let left = clocks.map(|clock| {

@@ -55,9 +55,9 @@ mechanism! {
         memory speed [m/s] = 0;
         /// Predicted rate of the rod.
         memory turning [rad/s] = 0;
-        /// What the encoder of the cart says beyond the prediction.
+        /// Difference of the cart's encoder from the prediction.
         memory ahead [m] = 0;
-        /// What the encoder of the rod says beyond the prediction.
+        /// Difference of the rod's encoder from the prediction.
         memory beyond [rad] = 0;
         /// The predicted angle before the sample.
         memory before [rad] = 0;
@@ -88,7 +88,7 @@ mechanism! {
 
         /// Force of the motor.
         output force [N] = motor*push;
-        /// What the encoder of the rod said beyond the prediction.
+        /// Difference of the rod's encoder from the prediction, at the last sample.
         output innovation [rad] = beyond;
         /// Path of the rod's tip.
         output tip_x [m] = rod.tip.x;

@@ -110,7 +110,7 @@ mechanism! {
 
         start { x = 0; y = beside; phi = 0; alpha = 0; beta = 0; der(x) = rolling; der(phi) = 0; }
 
-        /// How far the robot is beside the circle.
+        /// Distance of the robot from the circle, outside of it positive.
         output deviation [mm] = sqrt(x^2 + (y - circle)^2) - circle;
         /// Torque of the left motor.
         output left_effort [N*m] = motors*left_torque;

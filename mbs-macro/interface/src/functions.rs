@@ -186,7 +186,7 @@ functions! {
     Switches = "switches"(Time, Positions, Velocities, Inputs) -> [result: Switches], [Adaptive, Whole];
     /// The period and the offset of every clock in s.
     Clocks = "clocks"() -> [result: Clocks], [Sampled, Whole];
-    /// What every clock sets its memories to, one clock after the other.
+    /// The values that every clock sets its memories to, one clock after the other.
     Samples = "samples"(Time, Positions, Velocities, Inputs) -> [result: Samples], [Counted, Sampled];
     /// The values that the conditions of the parameters judge.
     Conditions = "conditions"() -> [result: Conditions], [Whole];

@@ -128,7 +128,7 @@ pub enum Error {
     },
     /// Memories, for what knows no clocks.
     Clocks {
-        /// What it is.
+        /// Its name in a sentence.
         what: &'static str,
         /// A memory.
         memory: &'static str,

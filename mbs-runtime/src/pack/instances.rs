@@ -212,7 +212,7 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
     }
 }
 
-/// How many steps lead to the next sample in any lane.
+/// The number of steps to the next sample in any lane.
 #[inline(always)]
 pub(super) fn steps_to_sample<
     M: Mechanism<Real: Lane>,

@@ -32,7 +32,7 @@ pub struct Derivation {
     pub forces: Vec<Formula>,
     /// The rates of own states.
     pub rates: Vec<Formula>,
-    /// What clocks set memories to, each by the period of its clock.
+    /// The values that clocks set memories to, each by the period of its clock.
     pub samples: Vec<Formula>,
     /// ½ vᵀMv
     pub kinetic_energy: Formula,

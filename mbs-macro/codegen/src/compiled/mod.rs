@@ -120,7 +120,7 @@ pub struct Compiled {
     pub corners: Vec<Knots>,
     /// The values of [`FunctionId::Switches`], as people read them, with their knots.
     pub switches: Vec<(String, Knots)>,
-    /// What clocks set.
+    /// The clocks and the memories that they set.
     pub sampling: Sampling,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
@@ -178,9 +178,9 @@ pub struct Constraint {
 
 /// The clocks of a mechanism, and what they set: memories, which stand behind the inputs that a program sets.
 pub struct Sampling {
-    /// How many of the inputs, at their end, are memories.
+    /// The number of memories, the last of the inputs.
     pub memories: usize,
-    /// How many clocks there are.
+    /// The number of clocks.
     pub clocks: usize,
     /// The clock and the memory, by its place among the inputs, of every result of [`FunctionId::Samples`].
     pub samples: Vec<[usize; 2]>,

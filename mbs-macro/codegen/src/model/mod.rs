@@ -64,9 +64,9 @@ pub struct Model {
     pub solver: Solver,
     pub parameters: Vec<Setting>,
     pub requirements: Vec<Requirement>,
-    /// What a program sets, and behind it the memories, which clocks set.
+    /// The inputs that a program sets, and behind them the memories, which clocks set.
     pub inputs: Vec<Setting>,
-    /// How many of the inputs are memories.
+    /// The number of memories among the inputs.
     pub memories: usize,
     pub clocks: Vec<Clock>,
     pub coordinates: Vec<Coordinate>,

@@ -1,5 +1,6 @@
 //! A live mechanism in motion.
 
+mod clocks;
 mod derivatives;
 mod pack;
 mod reverse;
@@ -7,7 +8,7 @@ mod reverse;
 pub use pack::Pack;
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::equations::{self, At, Equations, Grid, Preparation, Room, Start, Watch};
+use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch};
 use mbs_runtime::{
     Adaptive, AdaptiveBuilder, Baumgarte, Error, Explicit, Gains, Held, Method, Projected, Real,
 };
@@ -170,20 +171,6 @@ impl<T: Real> Run<T> {
     /// ```
     pub fn adaptive(mechanism: &Live<T>) -> AdaptiveBuilder<Prepared<T>> {
         Adaptive::builder(Prepared::new(mechanism))
-    }
-
-    /// The steps, by which clocks are told.
-    fn grid(&self) -> Grid {
-        Grid { start: self.start_time.to_f64(), step: self.step.to_f64() }
-    }
-
-    /// Takes the samples that are due.
-    fn sample(&mut self) {
-        if self.mechanism.declared_info().sampling.clocks > 0 {
-            let [q, v] = self.completed();
-            let at = At { t: self.t, q: &q, v: &v };
-            self.grid().sample(self.steps, &self.mechanism, at, &mut self.inputs);
-        }
     }
 
     /// The state of the coordinates that are integrated.
