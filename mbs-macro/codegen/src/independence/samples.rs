@@ -196,17 +196,49 @@ pub fn typical_length(model: &Model) -> f64 {
             _ => 0.0,
         })
         .collect();
+    let value = |symbol: Symbol| values.get(symbol.index()).copied().unwrap_or(0.0);
     let of_dimension = |dimension: Dimension| {
         let rows = model.constraints.iter().filter(|constraint| constraint.dimension == dimension);
         let rows: Vec<Expr> = rows.map(|constraint| constraint.phi).collect();
-        let value = |symbol: Symbol| values.get(symbol.index()).copied().unwrap_or(0.0);
-        sizes(&model.arena, &rows, &value)
+        let sizes = sizes(&model.arena, &rows, &value);
+        rows.into_iter().zip(sizes).filter(|(_, size)| is_usable(size)).collect::<Vec<_>>()
     };
-    let squares = of_dimension(Dimension::LENGTH.times(Dimension::LENGTH)).into_iter().map(f64::sqrt);
-    let compared = of_dimension(Dimension::LENGTH).into_iter().chain(squares).filter(is_usable);
+    let squares = of_dimension(Dimension::LENGTH.times(Dimension::LENGTH)).into_iter();
+    let squares = squares.map(|(_, size)| size.sqrt());
+    let lengths = largest_way(model, &value, of_dimension(Dimension::LENGTH));
+    let compared = lengths.into_iter().chain(squares);
     let parameters = model.parameters.iter().filter(|p| p.quantity.dimension == Dimension::LENGTH);
     let parameters = parameters.map(|p| p.value.abs()).filter(is_usable);
     compared.reduce(f64::max).or_else(|| parameters.reduce(f64::max)).unwrap_or(1.0)
+}
+
+/// Rows beyond the largest few are not asked for the way that they measure.
+const MOST_ROWS: usize = 32;
+
+/// The largest way by which coordinates would have to change to be worth the size of a row: of (d² − l²)/2l with a distance
+/// l that is short beside the coordinates, d²/2l is larger than any length that is compared, and so is its slope.
+fn largest_way(model: &Model, value: &dyn Fn(Symbol) -> f64, mut rows: Vec<(Expr, f64)>) -> Option<f64> {
+    rows.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut largest: Option<f64> = None;
+    for (row, size) in rows.into_iter().take(MOST_ROWS) {
+        if largest.is_some_and(|largest| largest >= size) {
+            break;
+        }
+        let moved = |at: Symbol, by: f64| {
+            let value = |symbol: Symbol| value(symbol) + if symbol == at { by } else { 0.0 };
+            model.arena.evaluate(&[row], &value).first().copied().unwrap_or_default()
+        };
+        let is_length = |symbol: &Symbol| match model.meanings.get(symbol.index()) {
+            Some(Meaning::Coordinate(at)) => !is_angle(model, *at),
+            _ => false,
+        };
+        let symbols = model.arena.symbols_in(row).into_iter().filter(is_length);
+        let slopes = symbols.map(|at| (moved(at, size) - moved(at, -size)).abs() / (2.0 * size));
+        let slope = slopes.filter(|slope| slope.is_finite()).fold(1.0, f64::max);
+        let way = size / slope;
+        largest = Some(largest.map_or(way, |largest| largest.max(way)));
+    }
+    largest
 }
 
 /// The size that counts as 1 in each coordinate: a typical length, a radian.
