@@ -18,7 +18,7 @@ pub struct Derivation {
     pub phi_dot: &'static [Formula],
     /// γ, by constraint.
     pub gamma: &'static [Formula],
-    /// The diagonal of M, by coordinate.
+    /// The diagonal of M by coordinate, and its other entries by pairs of coordinates.
     pub mass: &'static [Formula],
     /// Q, by coordinate.
     pub forces: &'static [Formula],
@@ -26,6 +26,9 @@ pub struct Derivation {
     pub rates: &'static [Formula],
     /// The values that clocks set memories to, by those before the sample; `by` is the period of the clock.
     pub samples: &'static [Formula],
+    /// True if neither constraints, potentials nor declared forces depend on time, velocities, states, reactions or
+    /// inputs. Forces that depend on places alone may still have no potential.
+    pub keeps_energy: bool,
     /// The kinetic energy.
     pub kinetic_energy: Formula,
     /// The potential energy.

@@ -9,10 +9,13 @@ pub struct Sketch {
     /// The name of every point: `crank` for the centre of a body, `crank.tip`
     /// for a point of it.
     pub points: &'static [&'static str],
-    /// The bodies, in the order of declaration.
+    /// The bodies, in the order of declaration, and behind them the points of the ground that move with
+    /// coordinates, each as a body of one point.
     pub bodies: &'static [Body],
-    /// The points of the ground: the origin, then those that were declared.
+    /// The points of the ground that stand still: the origin, then those that were declared.
     pub ground: &'static [usize],
+    /// The points at which particles are, in the order of declaration.
+    pub particles: &'static [usize],
     /// The joints: first what holds bodies that lack coordinates (one that has
     /// x alone is `prismatic` on the x axis) under the bodies' names, then those
     /// that were declared, in order.
@@ -21,13 +24,15 @@ pub struct Sketch {
     pub springs: &'static [Spring],
 }
 
-/// A rigid body.
+/// A body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Body {
     /// Its name.
     pub name: &'static str,
     /// Its centre of mass, then its points in the order of declaration.
     pub points: &'static [usize],
+    /// False if the place of one of its points on it depends on coordinates.
+    pub is_rigid: bool,
 }
 
 /// A joint between two places.

@@ -37,6 +37,7 @@ pub mod linkages;
 pub mod operators;
 pub mod pendulum;
 pub mod random;
+pub mod solved;
 pub mod swing;
 
 /// The README's example compiles and runs.

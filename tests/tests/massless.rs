@@ -3,9 +3,8 @@
 //! single entries of the Jacobian vanish (dead centres, links that hang straight
 //! down), and the solutions agree.
 
-use mbs_runtime::{Components, NoComponents, Simulation, State, mechanism};
-use nalgebra::{DMatrix, DVector};
-use tests::random::Random;
+use mbs_runtime::mechanism;
+use tests::solves_as_dense;
 
 mechanism! {
     /// A slider-crank whose rod has no mass, at its dead centre.
@@ -93,102 +92,24 @@ mechanism! {
     }
 }
 
-/// M, Φ_q, Q and γ of a state, for a dense solution.
-struct Dense {
-    matrix: DMatrix<f64>,
-    rhs: DVector<f64>,
-}
-
-impl Dense {
-    fn new(mass: DMatrix<f64>, phi_q: DMatrix<f64>, forces: &[f64], gamma: &[f64]) -> Self {
-        let (n, m) = (mass.nrows(), phi_q.nrows());
-        let mut matrix = DMatrix::zeros(n + m, n + m);
-        matrix.view_mut((0, 0), (n, n)).copy_from(&mass);
-        matrix.view_mut((n, 0), (m, n)).copy_from(&phi_q);
-        matrix.view_mut((0, n), (n, m)).copy_from(&phi_q.transpose());
-        Self { matrix, rhs: DVector::from_iterator(n + m, forces.iter().chain(gamma).copied()) }
-    }
-
-    fn condition(&self) -> f64 {
-        let singular = self.matrix.singular_values();
-        singular.max() / singular.min()
-    }
-}
-
-/// How bad a position may be to be compared: a random one seldom is worse.
-const LARGEST_CONDITION: f64 = 1e7;
-
-/// The elimination solves the dense system. Each of the two is good to
-/// size·condition·ε, and the one without exchanges of rows loses the growth of its
-/// pivots besides.
-fn assert_solves(dense: &Dense, ours: &[f64], growth: f64, at: &str) {
-    let condition = dense.condition();
-    let expected = dense.matrix.clone().lu().solve(&dense.rhs);
-    let expected = expected.unwrap_or_else(|| DVector::zeros(dense.rhs.len()));
-    let size = ours.len() as f64;
-    assert!(growth * condition * f64::EPSILON < 1e-3, "{at}: growth {growth:e}, condition {condition:e}");
-    let tolerance = size * f64::EPSILON * condition * (1.0 + growth) * (1.0 + expected.amax());
-    let deviation = (DVector::from_column_slice(ours) - &expected).amax();
-    assert!(deviation <= tolerance, "{at}: {deviation:e} > {tolerance:e}\n{ours:?}\n{expected}");
-}
-
-/// Compares at the declared start, along a run and in random positions.
-macro_rules! compare {
-    ($mechanism:ident, $steps:expr) => {{
-        let mechanism = $mechanism::declared();
-        let none = NoComponents::default();
-        let check = |at: &State<_>, must_be_regular: bool| {
-            let mass = mechanism.mass(&at.q);
-            let phi_q = mechanism.phi_q(at.t, &at.q);
-            let dense = Dense::new(
-                DMatrix::from_fn(mass.nrows(), mass.ncols(), |i, j| mass[(i, j)]),
-                DMatrix::from_fn(phi_q.nrows(), phi_q.ncols(), |i, j| phi_q[(i, j)]),
-                mechanism.forces(at, &none).into_array().as_ref(),
-                mechanism.gamma(at).into_array().as_ref(),
-            );
-            if !must_be_regular && dense.condition() > LARGEST_CONDITION {
-                return;
-            }
-            let solved = mechanism.accelerations(at, &none);
-            let mut ours = solved.acceleration.into_array().as_ref().to_vec();
-            ours.extend(solved.multipliers.into_array().as_ref());
-            assert_solves(&dense, &ours, solved.growth, &format!("{} at {at:?}", stringify!($mechanism)));
-        };
-        let mut run = Simulation::new(mechanism, 1e-3).expect("the start is regular");
-        check(&run.state(), true);
-        for _ in 0..$steps {
-            run.step().expect("the motion is regular");
-            check(&run.state(), true);
-        }
-        let mut random = Random::new(7);
-        for _ in 0..200 {
-            let mut at = run.state();
-            let (mut q, mut v) = (at.q.into_array(), at.v.into_array());
-            q.iter_mut().chain(&mut v).for_each(|x| *x = random.between(-3.0, 3.0));
-            (at.q, at.v) = (Components::from_array(q), Components::from_array(v));
-            check(&at, false);
-        }
-    }};
-}
-
 #[test]
 fn a_massless_rod_passes_its_dead_centres() {
     // a turn takes 0.314 s
-    compare!(MasslessRod, 400);
+    solves_as_dense!(MasslessRod, 400);
 }
 
 #[test]
 fn point_masses_hang_straight_down() {
-    compare!(Hanging, 200);
-    compare!(HangingSix, 200);
+    solves_as_dense!(Hanging, 200);
+    solves_as_dense!(HangingSix, 200);
 }
 
 #[test]
 fn a_cart_carries_massless_poles() {
-    compare!(TwoPoles, 200);
+    solves_as_dense!(TwoPoles, 200);
 }
 
 #[test]
 fn a_platform_stands_on_massless_legs() {
-    compare!(Legs, 50);
+    solves_as_dense!(Legs, 50);
 }

@@ -10,6 +10,8 @@ use crate::model::Model;
 pub fn derive(model: &mut Model, inputs: &Inputs) -> Equations {
     let mechanism = Mechanism {
         inertias: &model.inertias,
+        particles: &model.particles,
+        gravity: model.gravity,
         rows: model.constraints.iter().map(|constraint| (constraint.phi, constraint.rate)).collect(),
         loads: &model.loads,
         reactive_loads: model.reactive_loads.iter().map(|load| &load.work).collect(),

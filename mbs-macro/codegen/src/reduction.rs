@@ -38,7 +38,7 @@ use crate::derive::Equations;
 use crate::independence::Rows;
 use crate::independence::samples::units;
 use crate::inputs::Inputs;
-use crate::model::{Direction, Meaning, Model};
+use crate::model::{Meaning, Model};
 
 /// Sums of more terms are computed once, so that those of a chain do not become longer from
 /// link to link.
@@ -262,7 +262,7 @@ impl Preference {
         let size = |at: usize, coefficient: Number| coefficient.to_f64().abs() * self.units[at];
         let largest = dependence.linear.iter().map(|(&at, &c)| size(at, c)).fold(0.0, f64::max);
         dependence.candidates().max_by_key(|&(at, coefficient)| {
-            let is_length = model.coordinates[at].direction() != Some(Direction::Angle);
+            let is_length = !model.coordinates[at].is_angle();
             let is_small = size(at, coefficient) < SMALLEST_SHARE * largest;
             (!is_small, !self.felt.contains(&at), is_length, at)
         })

@@ -45,6 +45,8 @@ pub enum Results {
     Constraints,
     /// One number per entry of the Jacobian that is not 0.
     Jacobian,
+    /// One number per coordinate, and one per pair of coordinates whose entry of M is not 0.
+    Masses,
     /// One number per watched pivot.
     Pivots,
     /// One number per watched pivot of the corrections.
@@ -149,9 +151,9 @@ functions! {
     Gamma = "gamma"(Time, Positions, Velocities) -> [result: Constraints], [Counted, Method];
     /// γ − 2αΦ̇ − β²Φ, the right-hand side with feedback of the violation (Jiang 2025, Eq. 8).
     BaumgarteRhs = "baumgarte_rhs"(Time, Positions, Velocities, Gains) -> [result: Constraints], [Counted];
-    /// The diagonal of the mass matrix M; its other entries are 0.
-    Mass = "mass"(Time, Positions) -> [result: Coordinates], [Counted];
-    /// The generalized forces Q: gravity and applied loads.
+    /// The diagonal of the mass matrix M, and its other entries that are not 0, as the table of places has them.
+    Mass = "mass"(Time, Positions) -> [result: Masses], [Counted];
+    /// The generalized forces Q: gravity and applied loads, and centrifugal and Coriolis forces of particles.
     Forces = "forces"(Time, Positions, Velocities, Inputs) -> [result: Coordinates], [Counted, Method];
     /// The kinetic energy ½ vᵀMv in J.
     KineticEnergy = "kinetic_energy"(Time, Positions, Velocities) -> [energy: Scalar], [Counted, Method];

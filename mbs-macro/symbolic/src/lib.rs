@@ -57,6 +57,7 @@ mod moving;
 mod number;
 mod operators;
 pub mod pairs;
+mod polynomial;
 pub mod probe;
 mod program;
 mod repetition;

@@ -24,6 +24,7 @@ pub fn derivation(derivation: &compiled::Derivation) -> Derivation {
         forces: some(&derivation.forces),
         rates: some(&derivation.rates),
         samples: leak(derivation.samples.iter().map(formula)),
+        keeps_energy: derivation.keeps_energy,
         kinetic_energy: formula(&derivation.kinetic_energy),
         potential_energy: formula(&derivation.potential_energy),
         strategy: derivation.strategy,
@@ -53,8 +54,11 @@ fn elimination(step: &compiled::Elimination) -> Elimination {
 
 /// The picture of a mechanism.
 pub fn sketch(sketch: &compiled::Sketch) -> Sketch {
-    let body =
-        |(name, points): &(String, Vec<usize>)| Body { name: text(name), points: leak(points.clone()) };
+    let body = |body: &compiled::SketchBody| Body {
+        name: text(&body.name),
+        points: leak(body.points.clone()),
+        is_rigid: body.is_rigid,
+    };
     let joint = |link: &compiled::Link| Joint {
         name: text(&link.name),
         kind: link.kind,
@@ -72,6 +76,7 @@ pub fn sketch(sketch: &compiled::Sketch) -> Sketch {
         points: leak(sketch.points.iter().map(|point| text(point))),
         bodies: leak(sketch.bodies.iter().map(body)),
         ground: leak(sketch.ground.clone()),
+        particles: leak(sketch.particles.clone()),
         joints: leak(sketch.joints.iter().map(joint)),
         springs: leak(sketch.springs.iter().map(spring)),
     }

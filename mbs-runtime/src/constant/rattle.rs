@@ -27,7 +27,7 @@ const CORRECTIONS: u32 = 50;
 /// not drift, however long the run is. Composed of five steps
 /// ([`composition`](ConstantStepBuilder::composition)) it is of fourth order.
 ///
-/// Forces must not depend on velocities. Forces and drives that depend on time, and inputs, are
+/// Forces must not depend on velocities, as those of dampers and the centrifugal forces of particles do. Forces and drives that depend on time, and inputs, are
 /// permitted: they do work, and the method keeps its order. A run evaluates the forces once a step
 /// and solves five to eight times with the elimination of the accelerations, about three times the
 /// work of Heun's method. Take it for long runs whose energy matters, and an

@@ -113,7 +113,8 @@ impl fmt::Display for Error {
             Self::VelocityForce { coordinate } => write!(
                 f,
                 "a force along `{coordinate}` depends on velocities or reactions, and RATTLE takes forces of \
-                 positions, time and inputs alone; leave dampers and friction out, or take another method"
+                 positions, time and inputs alone; leave dampers, friction and particles beside the centre of a body \
+                 out, or take another method"
             ),
             Self::ReducedStates { method } => write!(
                 f,

@@ -37,9 +37,7 @@ pub(crate) fn sections(derivation: &'static Derivation) -> [Section; 10] {
             derivation.gamma,
             |f| named("γ", r"\gamma", f),
         ),
-        ("Mass matrix M, its diagonal", derivation.mass, |f| {
-            (format!("M[{}]", f.of), format!("M_{{{}}}", f.of_latex))
-        }),
+        ("Mass matrix M", derivation.mass, |f| (format!("M[{}]", f.of), format!("M_{{{}}}", f.of_latex))),
         ("Generalized forces Q", derivation.forces, |f| {
             (format!("Q[{}]", f.of), format!("Q_{{{}}}", f.of_latex))
         }),

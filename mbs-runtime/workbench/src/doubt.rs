@@ -210,7 +210,7 @@ impl Watch {
             Row { constraint: constraint.name, unit, limit, worst: 0.0, at: 0.0 }
         };
         let rows = info.constraints.iter().map(row).collect();
-        Self { rows, size, energy: Energy::of(info, derivation, size) }
+        Self { rows, size, energy: Energy::of(derivation, size) }
     }
 
     /// Takes Φ.

@@ -35,8 +35,8 @@ pub(crate) struct Energy {
 
 impl Energy {
     /// That of a mechanism of this size; nothing if something changes it.
-    pub fn of(info: &Info, derivation: &Derivation, size: f64) -> Option<Self> {
-        keeps_energy(info, derivation).then(|| Self { size, ..Self::default() })
+    pub fn of(derivation: &Derivation, size: f64) -> Option<Self> {
+        derivation.keeps_energy.then(|| Self { size, ..Self::default() })
     }
 
     /// Takes the energies.
@@ -93,15 +93,4 @@ impl Energy {
         let is_kept = power * span <= WORK * moved;
         (is_kept && !is_explained && change.abs() > ENERGY * moved).then_some(Doubt::Energy { change, moved })
     }
-}
-
-/// `true` if neither constraints, potentials nor forces depend on time, velocities, reactions or inputs. Forces that depend on
-/// places alone may still have no potential.
-fn keeps_energy(info: &Info, derivation: &Derivation) -> bool {
-    let changes_it = |word: &str| {
-        matches!(word, "t" | "der" | "lambda") || info.inputs.iter().any(|input| input.name == word)
-    };
-    let words = |text: &'static str| text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-    let mut formulas = derivation.forces.iter().chain([&derivation.potential_energy]);
-    derivation.phi_t.is_empty() && !formulas.any(|formula| words(formula.text).any(changes_it))
 }

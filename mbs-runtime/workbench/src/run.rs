@@ -126,11 +126,13 @@ impl dyn Model + '_ {
         let sketch = self.sketch();
         let mut columns = recording.columns.iter().map(|column| column.values.as_slice());
         let time = columns.next().unwrap_or_default();
-        let coordinates: Vec<&[f64]> = columns.take(recording.coordinates).collect();
+        let states = Signal::states(self.info());
+        let units = states.iter().map(|signal| Unit::of_signal(self.info(), signal));
+        let coordinates: Vec<(&[f64], Unit)> = columns.zip(units).take(recording.coordinates).collect();
         let mut motion = Motion { sketch, times: Vec::new(), places: Vec::new() };
         for row in picture::kept(time.len(), sketch.points.len()) {
             let at = |column: &[f64]| column.get(row).copied().unwrap_or(f64::NAN);
-            let q: Vec<f64> = coordinates.iter().map(|column| at(column)).collect();
+            let q: Vec<f64> = coordinates.iter().map(|(column, unit)| unit.read(at(column))).collect();
             let places = places(&*run, at(time), &q);
             if places.iter().flatten().all(|x| x.is_finite()) {
                 motion.times.push(at(time));

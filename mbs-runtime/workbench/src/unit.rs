@@ -27,9 +27,12 @@ impl Unit {
         Self { name: quantity.unit.to_owned(), scale: quantity.scale }
     }
 
-    /// The unit of a coordinate, which is a length or an angle: m or rad.
+    /// The unit of a coordinate: m or rad of one of a body, as declared of one of its own.
     pub fn of_coordinate(coordinate: &Quantity) -> Self {
-        Self::of_place(coordinate.dimension)
+        match coordinate.unit {
+            "" => Self::of_place(coordinate.dimension),
+            _ => Self::of(coordinate),
+        }
     }
 
     /// The unit of what is a length or an angle: m or rad.

@@ -60,6 +60,7 @@ const WRITTEN: &[&str] = &[
     include_str!("../../corpus/valid_beam.txt"),
     include_str!("../../corpus/valid_chain.txt"),
     include_str!("../../corpus/valid_clocks.txt"),
+    include_str!("../../corpus/valid_particles.txt"),
     include_str!("../../corpus/valid_cylinder.txt"),
     include_str!("../../corpus/valid_joints.txt"),
     include_str!("../../corpus/valid_press.txt"),

@@ -277,7 +277,7 @@ Cost: 5 mul + 2 add + 0 div + 0 sincos.*/
         &self,
         at: &::mbs_runtime::State<PendulumCoordinates<T>>,
     ) -> PendulumConstraints<T> {}
-    /**The generalized forces Q: gravity and applied loads.
+    /**The generalized forces Q: gravity and applied loads, and centrifugal and Coriolis forces of particles.
 
 ```text
 x: 0
@@ -341,7 +341,7 @@ Cost: 2 mul + 0 add + 0 div + 0 sincos.*/
         t: T,
         q: &PendulumCoordinates<T>,
     ) -> ::mbs_runtime::__private::nalgebra::SMatrix<T, 1usize, 2usize> {}
-    /**Mass matrix M. Its diagonal, all that is not 0:
+    /**Mass matrix M. Entries that are not 0:
 
 ```text
 x: mass

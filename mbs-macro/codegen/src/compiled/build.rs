@@ -3,7 +3,7 @@
 use super::derivation::readable;
 use super::{
     Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link, Pivot,
-    Sampling, Sketch, Written,
+    Sampling, Sketch, SketchBody, Written,
 };
 use crate::derive::Equations;
 use crate::model::{self, Block, Direction, Model};
@@ -42,6 +42,7 @@ impl Compiled {
                 .collect(),
             sampling: sampling(&model),
             jacobian: plan.phi_q_places.clone(),
+            masses: plan.mass_places.clone(),
             pivots: pivots(&model, &plan.pivot_names),
             start_pivots: pivots(&model, &plan.start_pivot_names),
             derivation: Derivation::new(&model, equations, &plan),
@@ -171,10 +172,16 @@ fn sketch(sketch: &model::Sketch) -> Sketch {
         second: link.second,
         ahead: link.ahead,
     };
+    let body = |body: &model::SketchBody| SketchBody {
+        name: body.name.clone(),
+        points: body.points.clone(),
+        is_rigid: body.is_rigid,
+    };
     Sketch {
         points: sketch.points.iter().map(|point| point.name.clone()).collect(),
-        bodies: sketch.bodies.clone(),
+        bodies: sketch.bodies.iter().map(body).collect(),
         ground: sketch.ground.clone(),
+        particles: sketch.particles.clone(),
         joints: sketch.joints.iter().map(link).collect(),
         springs: sketch.springs.iter().map(link).collect(),
     }

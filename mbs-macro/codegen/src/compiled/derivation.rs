@@ -1,9 +1,9 @@
 //! The equations and their elimination as texts.
 
-use mbs_symbolic::{Arena, Expr, Strategy, Unknown, latex_name};
+use mbs_symbolic::{Arena, Expr, Strategy, Symbol, Unknown, latex_name};
 
 use crate::derive::Equations;
-use crate::model::{Clock, Model};
+use crate::model::{Clock, Meaning, Model};
 use crate::plan::Plan;
 
 /// Formulas with more parts than this are not written out: nobody reads on.
@@ -26,7 +26,7 @@ pub struct Derivation {
     pub phi_dot: Vec<Formula>,
     /// γ
     pub gamma: Vec<Formula>,
-    /// The diagonal of M.
+    /// The diagonal of M, and its other entries that are not 0, each once.
     pub mass: Vec<Formula>,
     /// Q
     pub forces: Vec<Formula>,
@@ -34,6 +34,9 @@ pub struct Derivation {
     pub rates: Vec<Formula>,
     /// The values that clocks set memories to, each by the period of its clock.
     pub samples: Vec<Formula>,
+    /// True if neither constraints, potentials nor declared forces depend on time, velocities, states, reactions or
+    /// inputs: then only forces of places without a potential change the energy.
+    pub keeps_energy: bool,
     /// ½ vᵀMv
     pub kinetic_energy: Formula,
     /// That of gravity and springs.
@@ -121,10 +124,11 @@ impl Derivation {
             phi_t: rows(&equations.phi_t),
             phi_dot: rows(&equations.phi_dot),
             gamma: rows(&equations.gamma),
-            mass: coordinates(&equations.mass[..lines]),
+            mass: masses(model, equations),
             forces: coordinates(&equations.total_forces[..lines]),
             rates: rates.map(|(at, &rate)| formula(arena, coordinate_name(at), "", rate)).collect(),
             samples: model.clocks.iter().flat_map(|clock| samples(model, clock)).collect(),
+            keeps_energy: keeps_energy(model, equations),
             kinetic_energy: formula(arena, "T", "", equations.kinetic_energy),
             potential_energy: formula(arena, "V", "", equations.potential_energy),
             hoisted: plan.hoisted.iter().map(|&value| readable(arena, value)).collect(),
@@ -134,6 +138,29 @@ impl Derivation {
                 .collect(),
         }
     }
+}
+
+fn masses(model: &Model, equations: &Equations) -> Vec<Formula> {
+    let name = |at: usize| model.coordinates[at].quantity.name.as_str();
+    let lines = equations.mass.iter().enumerate().take(model.line_count());
+    let diagonal = lines.map(|(at, &mass)| formula(&model.arena, name(at), "", mass));
+    let couplings = equations.couplings.iter().map(|(&(i, j), &entry)| {
+        let (of, of_latex) = (format!("{}, {}", name(i), name(j)), [i, j].map(|at| latex_name(name(at))));
+        Formula { of_latex: of_latex.join(", "), ..formula(&model.arena, &of, "", entry) }
+    });
+    diagonal.chain(couplings).collect()
+}
+
+fn keeps_energy(model: &Model, equations: &Equations) -> bool {
+    let arena = &model.arena;
+    let changes_it = |symbol: Symbol| {
+        let meaning = model.meanings.get(symbol.index());
+        !matches!(meaning, Some(Meaning::Coordinate(_) | Meaning::Parameter(_)))
+    };
+    let lines = equations.applied_forces.iter().take(model.line_count());
+    let mut formulas = lines.chain([&equations.potential_energy]);
+    equations.phi_t.iter().all(|&rate| arena.is_zero(rate))
+        && !formulas.any(|&formula| arena.symbols_in(formula).into_iter().any(changes_it))
 }
 
 fn samples(model: &Model, clock: &Clock) -> impl Iterator<Item = Formula> {

@@ -124,6 +124,8 @@ pub struct Compiled {
     pub sampling: Sampling,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
+    /// Row and column of every result of [`FunctionId::Mass`], each pair of coordinates once.
+    pub masses: Vec<(usize, usize)>,
     /// The pivot of each result of [`FunctionId::Pivots`].
     pub pivots: Vec<Pivot>,
     /// The pivot of each result of [`FunctionId::StartPivots`].
@@ -208,14 +210,26 @@ pub struct Pivot {
 pub struct Sketch {
     /// Names of the points.
     pub points: Vec<String>,
-    /// Name and points of every body, its centre first.
-    pub bodies: Vec<(String, Vec<usize>)>,
+    /// The bodies, and behind them the points of the ground that move, each as one.
+    pub bodies: Vec<SketchBody>,
     /// The points of the ground, the origin first.
     pub ground: Vec<usize>,
+    /// The points at which particles are.
+    pub particles: Vec<usize>,
     /// The joints between points.
     pub joints: Vec<Link>,
     /// The springs and other elements between two points.
     pub springs: Vec<Link>,
+}
+
+/// A body of a picture.
+pub struct SketchBody {
+    /// Its name.
+    pub name: String,
+    /// Its points, its centre first.
+    pub points: Vec<usize>,
+    /// False if a point of it moves on it.
+    pub is_rigid: bool,
 }
 
 /// A joint or a spring between two points.
@@ -345,6 +359,7 @@ impl Compiled {
             Results::States => self.states.len(),
             Results::Constraints => self.constraints.len(),
             Results::Jacobian => self.jacobian.len(),
+            Results::Masses => self.masses.len(),
             Results::Pivots => self.pivots.len(),
             Results::StartPivots => self.start_pivots.len(),
             Results::Outputs => self.outputs.len(),

@@ -38,12 +38,14 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Constant { .. }
         | ItemKind::Input { .. }
         | ItemKind::State { .. }
+        | ItemKind::Coordinate { .. }
         | ItemKind::Memory { .. }
         | ItemKind::Let { .. }
         | ItemKind::Binding { .. } => quantities(item).into_iter().map(ToString::to_string).collect(),
         ItemKind::Constraint { name, .. }
         | ItemKind::Force { name, .. }
         | ItemKind::Energy { name, .. }
+        | ItemKind::Particle { name, .. }
         | ItemKind::Event { name, .. }
         | ItemKind::Output { name, .. } => plain(name),
         ItemKind::Element(element) => plain(&element.name),
@@ -84,6 +86,7 @@ pub fn quantities(item: &Item) -> Vec<&Ident> {
         | ItemKind::Constant { name, .. }
         | ItemKind::Input { name, .. }
         | ItemKind::State { name, .. }
+        | ItemKind::Coordinate { name, .. }
         | ItemKind::Memory { name, .. }
         | ItemKind::Let { name, .. }
         | ItemKind::Binding { name, .. } => vec![name],
@@ -120,6 +123,12 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         | ItemKind::Memory { name, value, .. } => {
             visit(Mention::Name(name));
             value.iter_mut().for_each(|value| in_formula(value, visit));
+        }
+        ItemKind::Coordinate { name, .. } => visit(Mention::Name(name)),
+        ItemKind::Particle { name, at, properties } => {
+            visit(Mention::Name(name));
+            visit(Mention::Place(at));
+            properties.iter_mut().for_each(|property| in_formula(&mut property.value, visit));
         }
         ItemKind::Rate { prefix, state, value } => {
             visit(Mention::Coordinate(prefix, state));

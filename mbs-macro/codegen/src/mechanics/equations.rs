@@ -6,12 +6,14 @@ use std::collections::BTreeMap;
 use mbs_symbolic::{Algebra, Arena, Expr, Number, Scalar, Symbol};
 use rustc_hash::FxHashMap as HashMap;
 
-use super::{Inertia, Load, Motion, Work, energies};
+use super::{Cluster, Inertia, Load, Motion, Particle, Work, energies};
 
 /// The inertias, constraints and loads of a mechanism.
 pub struct Mechanism<'m> {
     /// Of every coordinate.
     pub inertias: &'m [Inertia],
+    pub particles: &'m [Particle],
+    pub gravity: [Expr; 2],
     /// Φ, and Φ̇ where that is no derivative of it.
     pub rows: Vec<(Expr, Option<Expr>)>,
     pub loads: &'m [Load],
@@ -27,12 +29,17 @@ pub struct Mechanism<'m> {
 
 /// The equations of a mechanism; see design symbols in the crate docs.
 pub struct Equations {
-    /// M, diagonal: every body is described by its own coordinates.
+    /// The diagonal of M.
     pub mass: Vec<Expr>,
+    /// The other entries of M over pairs of coordinates, the first one before the second. Bodies have none, since
+    /// every body is described by its own coordinates.
+    pub couplings: BTreeMap<(usize, usize), Expr>,
     /// Q without the loads that depend on multipliers.
     pub forces: Vec<Expr>,
     /// Q
     pub total_forces: Vec<Expr>,
+    /// Q without what particles add: weights of bodies, and the forces of the declaration.
+    pub applied_forces: Vec<Expr>,
     /// Φ
     pub phi: Vec<Expr>,
     /// Φ_q, row by row, entries that are 0 left out.
@@ -47,7 +54,7 @@ pub struct Equations {
     pub feedback: Vec<Expr>,
     /// ½ vᵀMv
     pub kinetic_energy: Expr,
-    /// −Σ m g·x, and the energies of springs
+    /// −Σ m g·s, and the energies of springs
     pub potential_energy: Expr,
 }
 
@@ -68,14 +75,37 @@ pub fn derive(arena: &mut Arena, mechanism: &Mechanism<'_>) -> Equations {
     // Φ̈ = Φ_q q̈ − γ, and the direction holds velocities constant
     let gamma: Vec<_> = phi_dot.iter().map(|&rate| -rate.derivative(&along_motion)).collect();
     let feedback: Vec<_> = rows.iter().map(|row| row.feedback(mechanism)).collect();
-    let kinetic_energy = energies::kinetic(algebra, inertias).expr();
-    let potential_energy = energies::potential(algebra, inertias, mechanism.potentials).expr();
-    let forces = forces(algebra, mechanism);
+    let stored = energies::Energies {
+        inertias,
+        particles: mechanism.particles,
+        gravity: mechanism.gravity,
+        springs: mechanism.potentials,
+    };
+    let kinetic_energy = stored.kinetic(algebra, mechanism.motion).expr();
+    let potential_energy = stored.potential(algebra, mechanism.motion).expr();
+    let mut mass: Vec<_> = inertias.iter().map(|inertia| algebra.scalar(inertia.mass)).collect();
+    let mut couplings: BTreeMap<(usize, usize), Scalar<'_>> = BTreeMap::new();
+    let mut forces = forces(algebra, mechanism);
+    let applied_forces = exprs(&total_forces(algebra, mechanism, &forces));
+    for cluster in Cluster::all(algebra, mechanism.motion, mechanism.particles) {
+        let inertial = cluster.inertial(mechanism.gravity);
+        for ((i, j), entry) in inertial.masses {
+            let sum =
+                if i == j { &mut mass[i] } else { couplings.entry((i, j)).or_insert(algebra.number(0)) };
+            *sum = *sum + entry;
+        }
+        for (at, force) in inertial.forces {
+            forces[at] = forces[at] + force;
+        }
+    }
+    couplings.retain(|_, entry| !entry.is_zero());
     let total_forces = total_forces(algebra, mechanism, &forces);
     Equations {
-        mass: inertias.iter().map(|inertia| inertia.mass).collect(),
+        mass: exprs(&mass),
+        couplings: couplings.into_iter().map(|(pair, entry)| (pair, entry.shared().expr())).collect(),
         forces: exprs(&forces),
         total_forces: exprs(&total_forces),
+        applied_forces,
         phi: exprs(&phi),
         phi_q,
         phi_t: exprs(&phi_t),

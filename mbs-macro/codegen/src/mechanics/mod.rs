@@ -10,11 +10,13 @@ pub mod laws;
 mod loads;
 mod motion;
 mod norm;
+mod particles;
 mod places;
 
-pub use energies::{Inertia, kinetic, potential};
+pub use energies::{Energies, Inertia};
 pub use equations::{Equations, Mechanism, derive};
 pub use loads::{Applied, Load, Work};
 pub use motion::Motion;
 pub use norm::norm;
+pub use particles::{Cluster, Particle};
 pub use places::Placed;

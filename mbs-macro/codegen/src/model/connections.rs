@@ -9,7 +9,7 @@ use super::resolver::Resolver;
 use super::{Constraint, Meaning, Source};
 use crate::diagnostics::Diagnostic;
 use crate::mechanics::joints::{Holds, Mend, Row};
-use crate::syntax::Joint;
+use crate::syntax::{Attachment, Joint};
 
 impl Resolver<'_> {
     /// Enters the rows that the joint will have.
@@ -32,13 +32,14 @@ impl Resolver<'_> {
     /// The rows that a joint has. One that holds an angle between bodies that do not turn
     /// has no row for it, if it has others.
     fn rows_of(&self, joint: &Joint) -> Vec<&'static Row> {
-        let turns = |body: &Ident| match self.scope.bodies.get(&body.to_string()) {
-            Some(frame) => self.scope.arena.as_number(frame.angle).is_none(),
-            None => true,
+        let turns = |place: &Attachment| {
+            let body = self.scope.on_body(place).body.to_string();
+            let frame = self.scope.bodies.get(&body);
+            frame.is_none_or(|frame| self.scope.arena.as_number(frame.angle).is_none())
         };
         let is_kept = |row: &&Row| row.holds != Holds::Angle;
         let others: Vec<_> = joint.kind.rows.iter().filter(is_kept).collect();
-        if others.is_empty() || turns(&joint.first.body) || turns(&joint.second.body) {
+        if others.is_empty() || turns(&joint.first) || turns(&joint.second) {
             return joint.kind.rows.iter().collect();
         }
         others
@@ -76,8 +77,20 @@ impl Resolver<'_> {
             known.connection = Some(connection);
         }
         let algebra = Algebra::new(&mut self.scope.arena);
-        let joint = connection.on(&algebra);
-        Some(rows.iter().map(|row| ((row.phi)(&joint).expr(), row.dimension(joint.unit))).collect())
+        let on = connection.on(&algebra);
+        let is_left_out = |row: &&Row| !rows.iter().any(|kept| kept.suffix == row.suffix);
+        let mut left_out = joint.kind.rows.iter().filter(is_left_out);
+        // between bodies that do not turn every angle is 0
+        let contradicts = left_out.any(|row| !(row.phi)(&on).is_zero());
+        let equations = rows.iter().map(|row| ((row.phi)(&on).expr(), row.dimension(on.unit))).collect();
+        if contradicts {
+            let message =
+                format!("joint `{}` asks for an angle, and neither of its places turns", joint.name);
+            self.errors
+                .push(Diagnostic::new(joint.name.span(), message).help("leave the angle out: it is 0"));
+            return None;
+        }
+        Some(equations)
     }
 
     pub(super) fn depends_on_coordinates(&self, phi: Expr) -> bool {
@@ -92,8 +105,11 @@ impl Resolver<'_> {
 
     /// The error for a row in which nothing can move.
     fn useless_row(&self, joint: &Joint, row: &Row) -> Diagnostic {
-        let missing = self.missing_coordinate(&joint.first.body);
+        let missing = self.missing_coordinate(&self.scope.on_body(&joint.first).body);
         let help = match (joint.kind.mend, missing) {
+            (Mend::Remove, _) if row.holds == Holds::Angle && joint.kind.rows.len() > 1 => {
+                "write a `revolute` for the rest of it, or remove the joint".to_owned()
+            }
             (Mend::Remove, _) => "remove the joint: its bodies cannot move otherwise".to_owned(),
             (Mend::Move(reason), Some(missing)) => format!("{missing}: {reason}"),
             (Mend::RemoveOrMove, Some(missing)) => format!("remove the joint, or {missing}"),

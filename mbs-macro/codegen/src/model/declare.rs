@@ -22,6 +22,13 @@ impl<'a> Resolver<'a> {
             }
             ItemKind::Input { name, unit, .. } => self.declare_input(name, unit, &item.doc),
             ItemKind::Body { name, coordinates, .. } => self.declare_body(name, coordinates),
+            ItemKind::Particle { name, at, .. } => {
+                self.scope.particles.entry(name.to_string()).or_insert(at);
+            }
+            ItemKind::Coordinate { name, unit } => {
+                let block = Block::Free;
+                self.declare_coordinate(name, block, quantity(name, &item.doc, &unit.text, unit.unit));
+            }
             _ => {}
         }
     }
@@ -32,7 +39,9 @@ impl<'a> Resolver<'a> {
             ItemKind::Constraint { name, role, .. } => self.declare_row(name, *role == Role::Drive),
             ItemKind::Joint(joint) => self.declare_joint(joint),
             ItemKind::Table(table) => self.declare_table(table),
-            ItemKind::Point { name, body, .. } => self.scope.declare_point(name, body, &mut self.errors),
+            ItemKind::Point { name, body, value } => {
+                self.scope.declare_point(name, body, value, &mut self.errors);
+            }
             ItemKind::State { name, unit, .. } => self.declare_state(name, unit, &item.doc),
             ItemKind::Force { name, is_torque, .. } => {
                 self.declare_source(name, if *is_torque { "torque" } else { "force" }, None);
@@ -137,7 +146,12 @@ impl<'a> Resolver<'a> {
                 continue;
             }
             positions.push(self.coordinates.len());
-            self.declare_coordinate(&coordinate.name, direction, body);
+            let (unit, dimension) = match direction {
+                Direction::Angle => ("rad", Dimension::NONE),
+                Direction::X | Direction::Y => ("m", Dimension::LENGTH),
+            };
+            let unit = quantity(&coordinate.name, "", unit, Unit { scale: Number::ONE, dimension });
+            self.declare_coordinate(&coordinate.name, Block::Line { body, direction }, unit);
         }
         let names = coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
         let zero = self.scope.arena.zero();
@@ -165,27 +179,16 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn declare_coordinate(&mut self, name: &Ident, direction: Direction, body: usize) {
+    fn declare_coordinate(&mut self, name: &Ident, block: Block, quantity: Quantity) {
         let at = self.coordinates.len();
         let text = name.to_string();
         let position = self.scope.symbol(&text, Stage::Variable, Meaning::Coordinate(at));
         let velocity = self.scope.symbol(&format!("der({text})"), Stage::Variable, Meaning::Velocity(at));
         self.scope.motion.add_coordinate(position, velocity);
         self.scope.symbol(&format!("der(der({text}))"), Stage::Variable, Meaning::Acceleration(at));
-        let (unit, dimension) = match direction {
-            Direction::Angle => ("rad", Dimension::NONE),
-            _ => ("m", Dimension::LENGTH),
-        };
-        let value = Value::Symbol { symbol: position, dimension, span: name.span() };
+        let value = Value::Symbol { symbol: position, dimension: quantity.dimension, span: name.span() };
         self.scope.declare(name, value, &mut self.errors);
-        let quantity = quantity(name, "", unit, Unit { scale: Number::ONE, dimension });
-        self.coordinates.push(Coordinate {
-            quantity,
-            span: name.span(),
-            position,
-            velocity,
-            block: Block::Line { body, direction },
-        });
+        self.coordinates.push(Coordinate { quantity, span: name.span(), position, velocity, block });
     }
 
     pub(super) fn declare_row(&mut self, name: &Ident, is_drive: bool) {

@@ -8,8 +8,8 @@ use proc_macro2::Span;
 
 use crate::mechanics::elements::Exerts;
 use crate::mechanics::joints::{self, Connection, JointKind};
-use crate::mechanics::{Inertia, Work};
-use crate::syntax::{Attachment, Formula};
+use crate::mechanics::{self, Inertia, Particle, Work};
+use crate::syntax::{Attachment, Formula, Vector};
 
 /// The name of the body without coordinates, at the origin.
 pub const GROUND: &str = "ground";
@@ -61,31 +61,44 @@ impl Value<'_> {
 }
 
 /// A body as the frame of its points.
-pub struct Frame {
+pub struct Frame<'a> {
     /// The names of its coordinates.
     pub coordinates: Vec<String>,
     pub origin: [Expr; 2],
     pub angle: Expr,
     /// Its coordinates have errors: what uses it has none of its own.
     pub is_broken: bool,
-    pub points: BTreeMap<String, Point>,
+    pub points: BTreeMap<String, Point<'a>>,
 }
 
 /// A point on a body.
-pub struct Point {
+pub struct Point<'a> {
     pub span: Span,
-    /// Its place on the body; `None` until resolved, or if that failed.
-    pub local: Option<[Expr; 2]>,
+    pub place: &'a Vector,
+    pub local: Local,
 }
 
-impl Frame {
+/// The place of a point on its body.
+#[derive(Clone, Copy)]
+pub enum Local {
+    Untouched,
+    /// Being resolved: meeting it again is a cycle.
+    Open,
+    Failed,
+    Done([Expr; 2]),
+}
+
+impl Frame<'_> {
     pub fn new(coordinates: Vec<String>, origin: [Expr; 2], angle: Expr) -> Self {
         Self { coordinates, origin, angle, is_broken: false, points: BTreeMap::new() }
     }
 
     /// The place on the body of the point called `name`, if there is one.
     pub fn local(&self, name: &str) -> Option<[Expr; 2]> {
-        self.points.get(name)?.local
+        match self.points.get(name)?.local {
+            Local::Done(local) => Some(local),
+            Local::Untouched | Local::Open | Local::Failed => None,
+        }
     }
 }
 
@@ -155,8 +168,18 @@ pub struct Source {
     pub exerts: Option<Exerts>,
 }
 
-/// The parts of the energies: inertias, and the energies of springs.
+/// The parts of the energies: inertias, particles, and the energies of springs.
 pub struct Energies {
     pub inertias: Vec<Inertia>,
+    pub particles: Vec<Particle>,
+    pub gravity: [Expr; 2],
     pub springs: Vec<Expr>,
+}
+
+impl Energies {
+    /// The same, borrowed.
+    pub fn parts(&self) -> mechanics::Energies<'_> {
+        let Self { inertias, particles, gravity, springs } = self;
+        mechanics::Energies { inertias, particles, gravity: *gravity, springs }
+    }
 }

@@ -5,7 +5,7 @@ use mbs_symbolic::{Algebra, Expr};
 use proc_macro2::{Ident, Span};
 
 use super::ReactiveLoad;
-use super::known::Value;
+use super::known::{GROUND, Value};
 use super::names::{Place, duplicate};
 use super::resolver::Resolver;
 use crate::diagnostics::{Diagnostic, listing, nearest};
@@ -29,8 +29,11 @@ impl Resolver<'_> {
         }
         let (body_name, target_text) = (&target.body, target.body.to_string());
         let coordinate = self.coordinate_named(&target_text);
-        let body = self.body_names.get(&target_text).map(|(body, _)| *body);
-        match (coordinate, body) {
+        // a point of the ground may move with a coordinate of its own
+        let is_body = self.body_names.contains_key(&target_text);
+        let is_particle = target.point.is_none() && self.scope.particles.contains_key(&target_text);
+        let is_place = is_body || is_particle || (target_text == GROUND && target.point.is_some());
+        match (coordinate, is_place) {
             (Some(coordinate), _) if target.point.is_none() => {
                 if let Some(frame) = frame {
                     self.errors.push(no_frame(frame, "a force along a coordinate"));
@@ -38,11 +41,11 @@ impl Resolver<'_> {
                 }
                 self.load_on_coordinate(name, coordinate, body_name, value);
             }
-            (_, Some(body)) => {
-                let load = LoadOnBody { name, body, is_torque, target, frame };
+            (_, true) => {
+                let load = LoadOnBody { name, is_torque, target, frame };
                 self.load_on_body(&load, value);
             }
-            (Some(_), None) => self.errors.push(
+            (Some(_), false) => self.errors.push(
                 Diagnostic::new(
                     body_name.span(),
                     format!("`{target_text}` is a coordinate and has no points"),
@@ -160,16 +163,20 @@ impl Resolver<'_> {
     /// refused unless it is 0, rather than dropped.
     fn push_load(&mut self, load: &LoadOnBody<'_>, (moved, what): (Expr, &str), (value, span): (Expr, Span)) {
         let moves = self.apply(load.name, value, moved);
-        if !moves && !self.scope.arena.is_zero(value) {
+        let body = load.target.body.to_string();
+        if !moves && !self.scope.arena.is_zero(value) && !self.body_names.contains_key(&body) {
+            let message = format!("this place has no {what} that moves, so this would have no effect");
+            let help = "let it act on a body, or on a point whose place depends on a `coordinate`";
+            self.errors.push(Diagnostic::new(span, message).help(help));
+        } else if !moves && !self.scope.arena.is_zero(value) {
             let mend = if what == "angle" {
                 "let it act on a body that turns"
             } else {
                 "write 0 for this component"
             };
-            let name = &self.bodies[load.body].name;
-            let message = format!("body `{name}` has no {what}, so this would have no effect");
+            let message = format!("body `{body}` has no {what}, so this would have no effect");
             self.errors.push(
-                Diagnostic::new(span, message).help(format!("{mend}, or give `{name}` the coordinate")),
+                Diagnostic::new(span, message).help(format!("{mend}, or give `{body}` the coordinate")),
             );
         }
     }
@@ -210,7 +217,6 @@ impl Resolver<'_> {
 /// A declared force or torque on a body.
 struct LoadOnBody<'l> {
     name: &'l Ident,
-    body: usize,
     is_torque: bool,
     target: &'l Attachment,
     /// The body whose axes a force is given in; those of the ground if left out.

@@ -7,10 +7,10 @@ use mbs_symbolic::Algebra;
 use mbs_symbolic::units::Dimension;
 use proc_macro2::Ident;
 
-use super::known::{Energies, Source, Typed};
+use super::known::{Source, Typed};
 use super::names::{Place, Scope};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
-use crate::mechanics::{kinetic, norm, potential};
+use crate::mechanics::norm;
 use crate::syntax::{Attachment, EnergyRole, Formula, FormulaKind};
 
 /// The functions of this file.
@@ -192,8 +192,8 @@ impl Scope<'_> {
         self.only_in_outputs(name)?;
         let algebra = Algebra::new(&mut self.arena);
         let energy = match &self.energies {
-            Some(Energies { inertias, .. }) if name == "kinetic_energy" => kinetic(&algebra, inertias),
-            Some(Energies { inertias, springs }) => potential(&algebra, inertias, springs),
+            Some(energies) if name == "kinetic_energy" => energies.parts().kinetic(&algebra, &self.motion),
+            Some(energies) => energies.parts().potential(&algebra, &self.motion),
             None => algebra.number(0),
         };
         Ok(Typed { expr: energy.expr(), dimension: Some(ENERGY) })

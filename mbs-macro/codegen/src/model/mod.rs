@@ -20,6 +20,7 @@ mod laws;
 mod loads;
 mod measures;
 mod names;
+mod particles;
 mod places;
 mod rates;
 mod reactions;
@@ -40,11 +41,11 @@ use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proc_macro2::{Span, TokenStream};
 
 pub use resolver::resolve;
-pub use sketch::{Link, Sketch};
+pub use sketch::{Body as SketchBody, Link, Sketch};
 pub use solver::Solver;
 
 use crate::diagnostics::Diagnostic;
-use crate::mechanics::{Inertia, Load, Motion, Work};
+use crate::mechanics::{Inertia, Load, Motion, Particle, Work};
 use crate::quantity::{Comparison, Crossing, Quantity, Setting};
 
 /// A resolved mechanism.
@@ -73,6 +74,8 @@ pub struct Model {
     pub bodies: Vec<Body>,
     /// The inertia of each coordinate.
     pub inertias: Vec<Inertia>,
+    pub particles: Vec<Particle>,
+    pub particle_names: Vec<proc_macro2::Ident>,
     pub motion: Motion,
     pub constraints: Vec<Constraint>,
     pub gravity: [Expr; 2],
@@ -129,7 +132,7 @@ impl Requirement {
     }
 }
 
-/// A coordinate of a body, or a state of the declaration's own.
+/// A coordinate of a body or of its own, or a state of the declaration's own.
 ///
 /// The state of a run is made of blocks of two numbers. A state z of the declaration's own is the
 /// velocity of such a block, with a mass of 1: ż = f is the equation of motion of a coordinate
@@ -148,24 +151,35 @@ pub struct Coordinate {
 pub enum Block {
     /// A coordinate of a body and its velocity.
     Line { body: usize, direction: Direction },
+    /// A coordinate of its own and its velocity: points and equations use it.
+    Free,
     /// A state of the declaration's own and its integral.
     Own,
 }
 
 impl Coordinate {
-    /// Its body; a state of the declaration's own has none.
+    /// Its body, if it has one.
     pub fn body(&self) -> Option<usize> {
         match self.block {
             Block::Line { body, .. } => Some(body),
-            Block::Own => None,
+            Block::Free | Block::Own => None,
         }
     }
 
-    /// Its direction; a state of the declaration's own has none.
+    /// Its direction, if it is that of a body.
     pub fn direction(&self) -> Option<Direction> {
         match self.block {
             Block::Line { direction, .. } => Some(direction),
-            Block::Own => None,
+            Block::Free | Block::Own => None,
+        }
+    }
+
+    /// True if it is an angle, of a body or of its own.
+    pub fn is_angle(&self) -> bool {
+        match self.block {
+            Block::Line { direction, .. } => direction == Direction::Angle,
+            Block::Free => self.quantity.dimension == Dimension::NONE,
+            Block::Own => false,
         }
     }
 
@@ -300,7 +314,7 @@ impl Model {
         body.coordinates.iter().copied().find(|&at| self.coordinates[at].direction() == Some(direction))
     }
 
-    /// The number of coordinates of bodies, behind which own states stand.
+    /// The number of coordinates, behind which own states stand.
     pub fn line_count(&self) -> usize {
         self.coordinates.iter().filter(|coordinate| !coordinate.is_own()).count()
     }

@@ -10,6 +10,7 @@ use super::Requirement;
 use super::known::{Energies, Frame, GROUND, KnownJoint, Row, Source, Table, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::mechanics::Motion;
+use crate::syntax::Attachment;
 
 /// Names that the language itself defines.
 pub const RESERVED: &[&str] = &["t", "pi", "der", "lambda", "effort"];
@@ -19,6 +20,8 @@ pub const RESERVED: &[&str] = &["t", "pi", "der", "lambda", "effort"];
 pub enum Place {
     Constant,
     Property,
+    /// The place of a point on its body.
+    Point,
     Constraint,
     /// An equation between rates.
     RateRow,
@@ -37,10 +40,12 @@ impl Place {
     pub fn allows(self, meaning: Meaning) -> bool {
         match meaning {
             Meaning::Parameter(_) => self != Self::Constant,
-            Meaning::Time | Meaning::Coordinate(_) => !matches!(self, Self::Constant | Self::Property),
-            Meaning::Velocity(_) => {
-                !matches!(self, Self::Constant | Self::Property | Self::Constraint | Self::Potential)
-            }
+            Meaning::Time => !matches!(self, Self::Constant | Self::Property | Self::Point),
+            Meaning::Coordinate(_) => !matches!(self, Self::Constant | Self::Property),
+            Meaning::Velocity(_) => !matches!(
+                self,
+                Self::Constant | Self::Property | Self::Point | Self::Constraint | Self::Potential
+            ),
             Meaning::Input(_) => {
                 matches!(self, Self::Load | Self::Rate | Self::Event | Self::Sample | Self::Anywhere)
             }
@@ -54,6 +59,10 @@ impl Place {
         match self {
             Self::Constant => "this value has to be a number: it may use literals, `pi` and `const` names",
             Self::Property => "this value has to be fixed by parameters and constants",
+            Self::Point => {
+                "the place of a point on its body is written in positions and parameters; what moves it with time is a \
+                 `drive` of a `coordinate`"
+            }
             Self::Constraint => {
                 "a constraint is written in positions, parameters and time; its derivatives are taken for you; an equation \
                  between rates is a `rate`"
@@ -100,7 +109,9 @@ pub struct Scope<'a> {
     /// The names of values and tables that formulas use.
     pub used: BTreeSet<String>,
     /// Bodies, and the ground.
-    pub bodies: BTreeMap<String, Frame>,
+    pub bodies: BTreeMap<String, Frame<'a>>,
+    /// Where particles are, whose names are those of their places.
+    pub particles: BTreeMap<String, &'a Attachment>,
     /// Constraints and drives: position, whether it is a drive, dimension once known.
     pub rows: BTreeMap<String, Row>,
     pub joints: BTreeMap<String, KnownJoint>,
@@ -133,6 +144,7 @@ impl<'a> Scope<'a> {
             values: BTreeMap::new(),
             used: BTreeSet::new(),
             bodies: BTreeMap::from([(GROUND.to_owned(), ground)]),
+            particles: BTreeMap::new(),
             rows: BTreeMap::new(),
             joints: BTreeMap::new(),
             sources: BTreeMap::new(),

@@ -1,10 +1,10 @@
 //! Points on bodies, and what a formula or a joint can say of them.
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Algebra, Node};
+use mbs_symbolic::{Algebra, Expr, Node};
 use proc_macro2::{Ident, Span};
 
-use super::known::{Frame, Point, Typed};
+use super::known::{Frame, Local, Point, Typed};
 use super::names::{Place, Scope, duplicate};
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
 use crate::mechanics::Placed;
@@ -13,9 +13,12 @@ use crate::syntax::{Attachment, Vector};
 /// Words behind a dot that are no points.
 const MEMBERS: &[&str] = &["x", "y", "angle"];
 
-impl Scope<'_> {
+/// Points may build on each other this deep.
+const DEEPEST: usize = 128;
+
+impl<'a> Scope<'a> {
     /// Enters the name of a point.
-    pub fn declare_point(&mut self, name: &Ident, body: &Ident, errors: &mut Diagnostics) {
+    pub fn declare_point(&mut self, name: &Ident, body: &Ident, place: &'a Vector, errors: &mut Diagnostics) {
         let text = name.to_string();
         if MEMBERS.contains(&text.as_str()) {
             errors.push(
@@ -35,24 +38,57 @@ impl Scope<'_> {
         match frame.points.get(&text) {
             Some(earlier) => errors.push(duplicate(name, earlier.span)),
             None => {
-                frame.points.insert(text, Point { span: name.span(), local: None });
+                frame.points.insert(text, Point { span: name.span(), place, local: Local::Untouched });
             }
         }
     }
 
-    /// Reads where a point is on its body.
-    pub fn resolve_point(&mut self, name: &Ident, body: &Ident, place: &Vector, errors: &mut Diagnostics) {
-        let what = ("the place of a point", Dimension::LENGTH);
-        let x = self.formula_of(&place.x, Place::Property, what, errors);
-        let y = self.formula_of(&place.y, Place::Property, what, errors);
-        let frame = self.bodies.get_mut(&body.to_string());
-        if let Some(point) = frame.and_then(|frame| frame.points.get_mut(&name.to_string())) {
-            point.local = x.zip(y).map(|(x, y)| [x, y]);
+    /// Where a point is on its body, read when it is first needed: it may build on other points. `None` if there
+    /// is none, or if it has errors, which are added or were.
+    pub fn local(&mut self, body: &Ident, name: &Ident, errors: &mut Diagnostics) -> Option<[Expr; 2]> {
+        let depth = self.depth;
+        let point = self.point(body, name)?;
+        match point.local {
+            Local::Done(local) => Some(local),
+            Local::Failed => None,
+            Local::Open => {
+                let error =
+                    Diagnostic::new(name.span(), format!("the point `{body}.{name}` builds on itself"))
+                        .note(point.span, format!("`{name}` is declared here"));
+                errors.push(error.help("break the circle: give one of the points a place of its own"));
+                None
+            }
+            Local::Untouched if depth > DEEPEST => {
+                let message =
+                    format!("`{body}.{name}` builds on more than {DEEPEST} names, one on the other");
+                let help = "declare points behind those that they build on";
+                errors.push(Diagnostic::new(name.span(), message).help(help));
+                None
+            }
+            Local::Untouched => {
+                point.local = Local::Open;
+                let place = point.place;
+                let what = ("the place of a point", Dimension::LENGTH);
+                // a point means the same wherever it is used
+                let locals = std::mem::take(&mut self.locals);
+                self.depth += 1;
+                let x = self.formula_of(&place.x, Place::Point, what, errors);
+                let y = self.formula_of(&place.y, Place::Point, what, errors);
+                self.depth -= 1;
+                self.locals = locals;
+                let local = x.zip(y).map(|(x, y)| [x, y]);
+                self.point(body, name)?.local = local.map_or(Local::Failed, Local::Done);
+                local
+            }
         }
     }
 
+    fn point(&mut self, body: &Ident, name: &Ident) -> Option<&mut Point<'a>> {
+        self.bodies.get_mut(&body.to_string())?.points.get_mut(&name.to_string())
+    }
+
     /// The body called `name`.
-    pub(super) fn frame(&self, name: &Ident) -> Result<&Frame, Diagnostic> {
+    pub(super) fn frame(&self, name: &Ident) -> Result<&Frame<'a>, Diagnostic> {
         let text = name.to_string();
         self.bodies.get(&text).ok_or_else(|| {
             let error = Diagnostic::new(name.span(), format!("there is no body `{text}`"));
@@ -69,25 +105,38 @@ impl Scope<'_> {
         })
     }
 
+    /// The same place by its body, where it is that of a particle.
+    pub fn on_body<'b>(&self, attachment: &'b Attachment) -> &'b Attachment
+    where
+        'a: 'b,
+    {
+        let name = attachment.body.to_string();
+        match self.particles.get(&name) {
+            Some(at) if attachment.point.is_none() && !self.bodies.contains_key(&name) => at,
+            _ => attachment,
+        }
+    }
+
     /// A place on a body; `None` if it has errors, which are added or were.
     pub fn attachment(&mut self, attachment: &Attachment, errors: &mut Diagnostics) -> Option<Placed> {
+        let attachment = self.on_body(attachment);
         let frame = errors.take(self.frame(&attachment.body))?;
         let origin = Placed { position: frame.origin.into(), angle: frame.angle };
         if frame.is_broken {
             return None;
         }
         let Some(name) = &attachment.point else { return Some(origin) };
-        let Some(point) = frame.points.get(&name.to_string()) else {
+        if !frame.points.contains_key(&name.to_string()) {
             errors.push(self.unknown_point(&attachment.body, name, frame));
             return None;
-        };
-        let local = point.local?;
+        }
+        let local = self.local(&attachment.body, name, errors)?;
         let algebra = Algebra::new(&mut self.arena);
         Some(origin.on(&algebra).point(algebra.vector(local)).exprs())
     }
 
     /// The coordinate of a body that is called or meant by this name.
-    fn coordinate_at(&self, frame: &Frame, name: &str) -> Option<String> {
+    fn coordinate_at(&self, frame: &Frame<'_>, name: &str) -> Option<String> {
         if let Some(known) = frame.coordinates.iter().find(|known| *known == name) {
             return Some(known.clone());
         }
@@ -103,7 +152,7 @@ impl Scope<'_> {
         }
     }
 
-    fn unknown_point(&self, body: &Ident, name: &Ident, frame: &Frame) -> Diagnostic {
+    fn unknown_point(&self, body: &Ident, name: &Ident, frame: &Frame<'_>) -> Diagnostic {
         let error = Diagnostic::new(name.span(), format!("body `{body}` has no point `{name}`"));
         let text = name.to_string();
         if let Some(coordinate) = self.coordinate_at(frame, &text) {

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mbs_symbolic::Expr;
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap as HashMap;
 
@@ -19,7 +19,7 @@ use super::{
     ReactiveLoad, Solver, Start,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
-use crate::mechanics::{Inertia, Load};
+use crate::mechanics::{Inertia, Load, Particle};
 use crate::quantity::Setting;
 use crate::syntax::{Declaration, Item, ItemKind};
 
@@ -75,6 +75,11 @@ pub(super) struct Resolver<'a> {
     pub body_names: HashMap<String, (usize, Span)>,
     pub constraints: Vec<Constraint>,
     pub row_count: usize,
+    pub particles: Vec<Particle>,
+    /// Their names.
+    pub particle_idents: Vec<Ident>,
+    /// The names of particles, and where they are declared.
+    pub particle_names: HashMap<String, Span>,
     pub gravity: Option<([Expr; 2], Span)>,
     pub loads: Vec<Load>,
     pub reactive_loads: Vec<ReactiveLoad>,
@@ -116,6 +121,9 @@ impl<'a> Resolver<'a> {
             body_names: HashMap::default(),
             constraints: Vec::new(),
             row_count: 0,
+            particles: Vec::new(),
+            particle_idents: Vec::new(),
+            particle_names: HashMap::default(),
             gravity: None,
             loads: Vec::new(),
             reactive_loads: Vec::new(),
@@ -149,18 +157,24 @@ impl<'a> Resolver<'a> {
     }
 
     fn forces_are_known(&mut self) {
-        let springs = self.potentials.clone();
-        self.scope.energies = Some(Energies { inertias: self.inertias(), springs });
+        let (inertias, particles) = (self.inertias(), self.particles.clone());
+        let (gravity, springs) = (self.gravity(), self.potentials.clone());
+        self.scope.energies = Some(Energies { inertias, particles, gravity, springs });
+    }
+
+    fn gravity(&self) -> [Expr; 2] {
+        self.gravity.map_or([self.scope.arena.zero(); 2], |(gravity, _)| gravity)
     }
 
     /// The inertia of each coordinate.
     fn inertias(&self) -> Vec<Inertia> {
-        let gravity = self.gravity.map_or([self.scope.arena.zero(); 2], |(gravity, _)| gravity);
+        let gravity = self.gravity();
         let inertia = |coordinate: &Coordinate| {
             let (mass, gravity) = match coordinate.block {
                 Block::Line { body, direction: Direction::X } => (self.bodies[body].mass, Some(gravity[0])),
                 Block::Line { body, direction: Direction::Y } => (self.bodies[body].mass, Some(gravity[1])),
                 Block::Line { body, direction: Direction::Angle } => (self.bodies[body].inertia, None),
+                Block::Free => (self.scope.arena.zero(), None),
                 Block::Own => (self.scope.arena.one(), None),
             };
             let (position, velocity) = (coordinate.position, coordinate.velocity);
@@ -217,10 +231,12 @@ impl<'a> Resolver<'a> {
         }
         let sketch = self.sketch(declaration);
         let warnings = self.warnings(declaration);
-        let zero = self.scope.arena.zero();
+        let (zero, gravity) = (self.scope.arena.zero(), self.gravity());
         let model = Model {
             time: self.scope.time,
             inertias: self.inertias(),
+            particles: self.particles,
+            particle_names: self.particle_idents,
             motion: self.scope.motion,
             meanings: self.scope.meanings,
             arena: self.scope.arena,
@@ -239,7 +255,7 @@ impl<'a> Resolver<'a> {
             coordinates: self.coordinates,
             bodies: self.bodies,
             constraints: self.constraints,
-            gravity: self.gravity.map_or([zero; 2], |(gravity, _)| gravity),
+            gravity,
             loads: self.loads,
             reactive_loads: self.reactive_loads,
             checks: self.checks,

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::{Algebra, Arena, Expr};
+use mbs_symbolic::{Algebra, Arena, Expr, Stage};
 use proc_macro2::Ident;
 
 use super::Direction;
@@ -18,12 +18,23 @@ use crate::syntax::{Attachment, Clause, Declaration, Item, ItemKind};
 #[derive(Default)]
 pub struct Sketch {
     pub points: Vec<Point>,
-    /// Name and points of every body, its centre first.
-    pub bodies: Vec<(String, Vec<usize>)>,
+    /// The bodies, and behind them the points of the ground that move, each as one.
+    pub bodies: Vec<Body>,
     /// The points of the ground, the origin first.
     pub ground: Vec<usize>,
+    /// Where particles are.
+    pub particles: Vec<usize>,
     pub joints: Vec<Link>,
     pub springs: Vec<Link>,
+}
+
+/// A body with its points, its centre first.
+#[derive(Clone)]
+pub struct Body {
+    pub name: String,
+    pub points: Vec<usize>,
+    /// False if a point of it moves on it.
+    pub is_rigid: bool,
 }
 
 /// A point with its place on a body.
@@ -76,9 +87,17 @@ impl Resolver<'_> {
         let bodies: Vec<String> = self.bodies.iter().map(|body| body.name.clone()).collect();
         for body in bodies {
             let points = self.sketch_points(&body, &declared, &mut sketch, &mut known);
-            sketch.bodies.push((body, points));
+            let is_rigid = !points.iter().any(|&at| self.moves(&sketch.points[at]));
+            sketch.bodies.push(Body { name: body, points, is_rigid });
         }
-        sketch.ground = self.sketch_points(GROUND, &declared, &mut sketch, &mut known);
+        let ground = self.sketch_points(GROUND, &declared, &mut sketch, &mut known);
+        let (moving, ground): (Vec<usize>, _) =
+            ground.into_iter().partition(|&at| self.moves(&sketch.points[at]));
+        sketch.ground = ground;
+        for at in moving {
+            let name = sketch.points[at].name.clone();
+            sketch.bodies.push(Body { name, points: vec![at], is_rigid: true });
+        }
         for at in 0..self.bodies.len() {
             self.sketch_guide(at, &mut sketch);
         }
@@ -88,11 +107,17 @@ impl Resolver<'_> {
         sketch
     }
 
+    /// True if a point moves on its body.
+    fn moves(&self, point: &Point) -> bool {
+        let arena = &self.scope.arena;
+        point.local.is_some_and(|local| local.into_iter().any(|x| arena.stage(x) == Stage::Variable))
+    }
+
     /// A body that lacks coordinates is guided by the ground: one that has x
     /// alone slides on the x axis, one that has an angle alone turns about the
     /// origin.
     fn sketch_guide(&self, body: usize, sketch: &mut Sketch) {
-        let centre = sketch.bodies.get(body).and_then(|(_, points)| points.first().copied());
+        let centre = sketch.bodies.get(body).and_then(|body| body.points.first().copied());
         let Some(body) = self.bodies.get(body) else { return };
         let has = |direction| {
             body.coordinates.iter().any(|&at| self.coordinates[at].direction() == Some(direction))
@@ -136,7 +161,7 @@ impl Resolver<'_> {
         positions
     }
 
-    /// Adds a joint or a spring; of other statements, nothing.
+    /// Adds a joint, a spring or a particle; of other statements, nothing.
     fn sketch_link(&mut self, item: &Item, known: &Known, sketch: &mut Sketch) {
         let (name, kind, first, second, along) = match &item.kind {
             ItemKind::Joint(joint) => {
@@ -150,9 +175,16 @@ impl Resolver<'_> {
                 let Some(second) = &element.second else { return };
                 (&element.name, element.kind.word, &element.first, second, None)
             }
+            ItemKind::Particle { at, .. } => {
+                let at = self.scope.on_body(at);
+                let point = at.point.as_ref().map(Ident::to_string);
+                sketch.particles.extend(known.get(&(at.body.to_string(), point)));
+                return;
+            }
             _ => return,
         };
         let position = |place: &Attachment| {
+            let place = self.scope.on_body(place);
             let point = place.point.as_ref().map(Ident::to_string);
             known.get(&(place.body.to_string(), point)).copied()
         };

@@ -14,8 +14,8 @@ use crate::syntax::{self, Formula, FormulaKind, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {
     pub(super) fn resolve_places(&mut self, item: &Item) {
-        if let ItemKind::Point { name, body, value } = &item.kind {
-            self.scope.resolve_point(name, body, value, &mut self.errors);
+        if let ItemKind::Point { name, body, .. } = &item.kind {
+            self.scope.local(body, name, &mut self.errors);
         }
     }
 
@@ -144,6 +144,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Require { of, condition } => self.require(condition, of.as_ref()),
             ItemKind::Binding { name, value, default } => self.check_binding(name, value, default),
             ItemKind::State { name, value, .. } => self.resolve_state(name, value.as_ref()),
+            ItemKind::Particle { name, at, properties } => self.resolve_particle(name, at, properties),
             ItemKind::Every(every) => self.resolve_every(every),
             ItemKind::Set(set) => self.set_outside(set),
             ItemKind::Start { entries, .. } => entries.iter().for_each(|entry| self.resolve_start(entry)),

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mbs_symbolic::{Beyond, Function, Interpolation, Node, Stage};
+use mbs_symbolic::{Beyond, Expr, Function, Interpolation, Node, SplineId, Stage};
+use proc_macro2::Span;
 
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
@@ -11,6 +12,15 @@ use crate::syntax::{Declaration, ItemKind, Outside, Points, Table};
 /// A spline that leaves a dwell by less than this share of its range is not spoken of: one of three points of equal
 /// values or more, and one of two, which may be a peak between points on both of its sides.
 const OVERSHOOT: [f64; 2] = [1e-3, 2e-2];
+
+/// A constraint or a particle, where formulas must not jump.
+struct Jumping<'a> {
+    name: &'a str,
+    span: Span,
+    formulas: Vec<Expr>,
+    /// True if their slopes must not jump either.
+    by_slope: bool,
+}
 
 impl Resolver<'_> {
     /// The warnings of a declaration: names that no formula uses, and used tables that leave their dwells.
@@ -30,49 +40,70 @@ impl Resolver<'_> {
             .collect()
     }
 
-    /// Tables in constraints whose value or slope jumps: there the velocity does, too, by an impact that nothing
-    /// computes. Once a table.
+    /// Tables and conditions in constraints and in places of particles whose value or slope jumps: there the velocity does,
+    /// too, by an impact that nothing computes. A table once.
     fn impacts(&self) -> Vec<Diagnostic> {
-        let (mut told, mut chosen) = (BTreeSet::new(), BTreeSet::new());
-        let mut found = Vec::new();
-        for constraint in &self.constraints {
-            for node in self.scope.arena.reachable(&[constraint.declared()]) {
-                if let Node::Call(Function::Greater | Function::Sign, _) = *self.scope.arena.node(node)
-                    && self.scope.arena.stage(node) == Stage::Variable
-                    && chosen.insert(&constraint.name)
-                {
-                    let name = &constraint.name;
-                    let meets = if constraint.rate.is_some() { "" } else { " with one slope" };
-                    let message = format!(
-                        "`{name}` chooses by a condition: unless both values meet there{meets}, the velocity jumps, \
-                         and no force of it is known"
-                    );
-                    found.push(
-                        Diagnostic::new(constraint.span, message)
-                            .help("let the pieces meet smoothly, or take a `monotone` table"),
-                    );
-                }
-                let Node::Spline(id, ..) = *self.scope.arena.node(node) else { continue };
-                let Some(spline) = self.scope.arena.splines().get(id.index()) else { continue };
-                // a slope that jumps in a rate is an acceleration that does
-                let slope = spline.jump(1).filter(|_| constraint.rate.is_none());
-                let what = [("value", spline.jump(0)), ("slope", slope)];
-                let jump = what.into_iter().find_map(|(what, jump)| Some((what, jump?.0)));
-                let Some((what, at)) = jump.filter(|_| told.insert(id)) else { continue };
-                let table = spline.bends.as_ref().map_or(&spline.name, |bends| &bends.of);
-                let name = &constraint.name;
-                let message = format!(
-                    "the {what} of `{table}` jumps at {at}: there `{name}` gives a jump of velocity, and no force of it"
-                );
-                let help = match spline.bends {
-                    Some(_) => "a `cubic` table has no jump between its points",
-                    None => {
-                        "between its points a `monotone` table has no jump; end it with two points of one value, and it \
-                         has none where that value is held"
-                    }
-                };
-                found.push(Diagnostic::new(constraint.span, message).help(help));
+        let constraints = self.constraints.iter().map(|constraint| {
+            let formulas = vec![constraint.declared()];
+            // a slope that jumps in a rate is an acceleration that does
+            Jumping {
+                name: &constraint.name,
+                span: constraint.span,
+                formulas,
+                by_slope: constraint.rate.is_none(),
             }
+        });
+        let names: Vec<String> = self.particle_idents.iter().map(ToString::to_string).collect();
+        let particles = self.particles.iter().zip(&names).zip(&self.particle_idents);
+        let particles = particles.map(|((particle, name), ident)| Jumping {
+            name,
+            span: ident.span(),
+            formulas: particle.local.to_vec(),
+            by_slope: true,
+        });
+        let mut told = BTreeSet::new();
+        let found = constraints.chain(particles).flat_map(|jumping| self.impacts_of(&jumping, &mut told));
+        found.collect()
+    }
+
+    fn impacts_of(&self, jumping: &Jumping<'_>, told: &mut BTreeSet<SplineId>) -> Vec<Diagnostic> {
+        let Jumping { name, span, ref formulas, by_slope } = *jumping;
+        let mut found = Vec::new();
+        let mut is_chosen = false;
+        for node in self.scope.arena.reachable(formulas) {
+            if let Node::Call(Function::Greater | Function::Sign, _) = *self.scope.arena.node(node)
+                && self.scope.arena.stage(node) == Stage::Variable
+                && !is_chosen
+            {
+                is_chosen = true;
+                let meets = if by_slope { " with one slope" } else { "" };
+                let message = format!(
+                    "`{name}` chooses by a condition: unless both values meet there{meets}, the velocity jumps, \
+                     and no force of it is known"
+                );
+                found.push(
+                    Diagnostic::new(span, message)
+                        .help("let the pieces meet smoothly, or take a `monotone` table"),
+                );
+            }
+            let Node::Spline(id, ..) = *self.scope.arena.node(node) else { continue };
+            let Some(spline) = self.scope.arena.splines().get(id.index()) else { continue };
+            let slope = spline.jump(1).filter(|_| by_slope);
+            let what = [("value", spline.jump(0)), ("slope", slope)];
+            let jump = what.into_iter().find_map(|(what, jump)| Some((what, jump?.0)));
+            let Some((what, at)) = jump.filter(|_| told.insert(id)) else { continue };
+            let table = spline.bends.as_ref().map_or(&spline.name, |bends| &bends.of);
+            let message = format!(
+                "the {what} of `{table}` jumps at {at}: there `{name}` gives a jump of velocity, and no force of it"
+            );
+            let help = match spline.bends {
+                Some(_) => "a `cubic` table has no jump between its points",
+                None => {
+                    "between its points a `monotone` table has no jump; end it with two points of one value, and it \
+                     has none where that value is held"
+                }
+            };
+            found.push(Diagnostic::new(span, message).help(help));
         }
         found
     }

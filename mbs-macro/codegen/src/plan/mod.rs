@@ -3,6 +3,7 @@
 
 mod corners;
 mod correction;
+mod masses;
 mod minimum_norm;
 mod programs;
 mod step;
@@ -45,6 +46,8 @@ pub struct Plan {
     pub programs: Programs,
     /// Row and column of each entry of Φ_q that is not 0.
     pub phi_q_places: Vec<(usize, usize)>,
+    /// Row and column of each entry of M that need not be 0, one half of the symmetric matrix.
+    pub mass_places: Vec<(usize, usize)>,
     /// True if a force depends on positions or velocities.
     pub has_stiffness: bool,
     /// A whole step, of a mechanism that is small enough.
@@ -127,6 +130,7 @@ pub fn plan(
     let names = |pivots: &[WatchedPivot]| pivots.iter().map(|pivot| (pivot.row, pivot.coordinate)).collect();
     Ok(Plan {
         phi_q_places: phi_q_places.collect(),
+        mass_places: masses::places(equations),
         corners,
         switches,
         pivot_names: names(&solver.factorization.pivots),

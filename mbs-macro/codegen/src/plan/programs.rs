@@ -6,9 +6,9 @@ use mbs_interface::{FunctionId, Property};
 use mbs_symbolic::{Expr, Hoisted, Inconsistency, Program, lower, lower_whole};
 use rustc_hash::FxHashMap as HashMap;
 
+use super::masses;
 use super::system::{self, Problem, Solver};
 use super::unsolvable::Unsolvable;
-use crate::derive::Equations;
 use crate::model::Model;
 use crate::stiff::Stiffness;
 
@@ -48,14 +48,7 @@ pub fn roots(
             system::implicit(model, problem, stiffness, solver.strategy)?.without_feedback(model, problem)
         }
     };
-    let momentum = model.coordinates.iter().zip(&equations.mass).map(|(coordinate, &mass)| {
-        if coordinate.is_own() {
-            return model.arena.zero();
-        }
-        let velocity = model.arena.variable(coordinate.velocity);
-        model.arena.mul(mass, velocity)
-    });
-    let momentum = momentum.collect();
+    let momentum = masses::momentum(model, equations);
     let entries = equations.phi_q.iter().flat_map(|row| row.values().copied());
     let growths = solver.factorization.pivots.iter().map(|pivot| pivot.growth);
     let samples = model.clocks.iter().flat_map(|clock| clock.sets.iter().map(|(_, value)| *value));
@@ -67,7 +60,7 @@ pub fn roots(
         (FunctionId::PhiT, equations.phi_t.clone()),
         (FunctionId::Gamma, equations.gamma.clone()),
         (FunctionId::BaumgarteRhs, baumgarte_rhs),
-        (FunctionId::Mass, equations.mass.clone()),
+        (FunctionId::Mass, masses::entries(equations)),
         (FunctionId::Forces, solver.forces.values.clone()),
         (FunctionId::KineticEnergy, vec![equations.kinetic_energy]),
         (FunctionId::PotentialEnergy, vec![equations.potential_energy]),
@@ -82,7 +75,7 @@ pub fn roots(
         (FunctionId::Events, model.events.iter().map(|event| event.value).collect()),
         (FunctionId::Clocks, model.clocks.iter().flat_map(|clock| [clock.period, clock.offset]).collect()),
         (FunctionId::Samples, samples),
-        (FunctionId::Conditions, requirements(model, equations)),
+        (FunctionId::Conditions, requirements(model)),
         (FunctionId::Start, declared_start(model)),
         (FunctionId::Points, model.sketch.places(&mut model.arena)),
         (FunctionId::KineticMomentum, momentum),
@@ -130,10 +123,10 @@ impl IndexMut<FunctionId> for Programs {
 }
 
 /// left − right and value of every requirement, then masses and inertias, then properties of elements.
-fn requirements(model: &Model, equations: &Equations) -> Vec<Expr> {
+fn requirements(model: &Model) -> Vec<Expr> {
     let declared = model.requirements.iter().flat_map(|r| [r.difference, r.value]);
     let checks = model.known_checks().map(|check| check.value);
-    declared.chain(equations.mass.iter().copied()).chain(checks).collect()
+    declared.chain(model.inertias.iter().map(|inertia| inertia.mass)).chain(checks).collect()
 }
 
 /// Declared positions, velocities and time of the start.

@@ -18,12 +18,12 @@ use mbs_symbolic::{
     Expr, Factorization, Hoisted, Kkt, Strategy, Sums, Undetermined, Unknown, factor, factor_within, lower,
 };
 
-use super::minimum_norm;
 use super::unsolvable::Unsolvable;
+use super::{masses, minimum_norm};
 use crate::derive::Equations;
 use crate::independence::Rows;
 use crate::inputs::Inputs;
-use crate::model::{Direction, Model};
+use crate::model::Model;
 use crate::reactive::{self, Forces};
 use crate::reduction::Reduction;
 use crate::stiff::{Rate, Stiffness};
@@ -31,6 +31,7 @@ use crate::stiff::{Rate, Stiffness};
 /// The constrained system with the coordinates in `held` left out.
 pub fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet<usize>) -> Kkt {
     let mut kkt = Kkt::new();
+    let massive = masses::positive(model, equations);
     for (at, &mass) in equations.mass.iter().enumerate() {
         if held.contains(&at) {
             continue;
@@ -38,11 +39,16 @@ pub fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet
         let unknown = Unknown::Coordinate(at);
         kkt.add_unknown(unknown);
         kkt.set(&model.arena, unknown, unknown, mass);
-        if !model.arena.is_zero(mass) {
+        if massive.contains(&at) {
             kkt.mark_massive(at);
         }
-        if model.coordinates[at].direction() == Some(Direction::Angle) {
+        if model.coordinates[at].is_angle() {
             kkt.mark_angle(at);
+        }
+    }
+    for (&(i, j), &entry) in &equations.couplings {
+        if !held.contains(&i) && !held.contains(&j) {
+            kkt.set(&model.arena, Unknown::Coordinate(i), Unknown::Coordinate(j), entry);
         }
     }
     for &at in &rows.basis {

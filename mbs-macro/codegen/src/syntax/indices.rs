@@ -105,7 +105,9 @@ impl Indices {
                     let indices = &tokens[at..at + brackets];
                     let indices = match resolved.last() {
                         Some(TokenTree::Ident(word))
-                            if ["input", "memory", "output", "state"].iter().any(|known| word == known) =>
+                            if ["coordinate", "input", "memory", "output", "state"]
+                                .iter()
+                                .any(|known| word == known) =>
                         {
                             without_unit(indices)
                         }

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use syn::Result;
 use syn::parse::ParseStream;
 
-use super::{EnergyRole, ItemKind, Role, clocks, items, joints, solver, tables};
+use super::{EnergyRole, ItemKind, Role, clocks, items, joints, particles, solver, tables};
 use crate::mechanics::elements::ELEMENTS;
 use crate::mechanics::joints::JOINTS;
 
@@ -59,6 +59,7 @@ pub const STATEMENTS: &[Statement] = &[
     ("const", "const k = 1/12;", "a number that is folded into the code", |input, _| items::constant(input)),
     ("input", "input u [V] = 12;", "a quantity that a program sets at every step, and its value at first", |input, _| items::input_item(input)),
     ("state", "state current [A] = 0;", "a state of its own, which an equation drives", |input, _| items::state(input)),
+    ("coordinate", "coordinate w [mm];", "a coordinate of its own, with which points move", |input, _| particles::coordinate(input)),
     ("memory", "memory integral [rad] = 0;", "a value that holds until a clock sets it", |input, _| clocks::memory(input)),
     ("set", "set integral = integral + error;", "gives a memory a value, in an `every`", |input, _| clocks::set(input)),
     ("der", "der(current) = (u - R*current)/L;", "the rate of a state", |input, _| items::rate(input)),
@@ -66,6 +67,7 @@ pub const STATEMENTS: &[Statement] = &[
     ("gravity", "gravity = (0, -9.81) [m/s^2];", "acts on every body that has a mass", items::gravity),
     ("body", "body rod (x, y, theta) { mass = m; inertia = j; }", "a rigid body with its coordinates", |input, _| items::body(input)),
     ("point", "point tip on rod = (l/2, 0);", "a place on a body", |input, _| joints::point(input)),
+    ("particle", "particle bob at rod.tip { mass = m; }", "a point mass at a place", |input, _| particles::particle(input)),
     ("constraint", "constraint rod: x = l*cos(theta);", "an equation between coordinates", |input, _| items::constraint(input, Role::Constraint)),
     ("drive", "drive motor: theta = omega*t;", "an equation that is enforced from outside", |input, _| items::constraint(input, Role::Drive)),
     ("coupler", "coupler screw: x = lead/(2*pi)*theta;", "an equation that is a transmission", |input, _| items::constraint(input, Role::Coupler)),
@@ -120,7 +122,7 @@ const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["weld", "rigid", "clamp", "lock"], "two bodies that move as one are a `fixed` joint"),
     (&["link", "bar", "rod", "cable", "string", "wire"], "what pulls and goes slack is a `rope`: `rope name (a.p, b.q) { stiffness = k; length = l; }`; a link with a mass is a `body`, one without is a `distance` joint: `distance name (a.p, b.q) = l;`"),
     (&["pulley", "chain", "timing_belt"], "two pulleys or sprockets are a `belt` joint"),
-    (&["mass", "inertia"], "masses and inertias are properties of bodies: `body rod (x, y, theta) { mass = …; inertia = …; }`"),
+    (&["mass", "inertia", "point_mass"], "masses and inertias are properties of bodies: `body rod (x, y, theta) { mass = …; inertia = …; }`; a point mass at a place is a `particle`: `particle bob at rod.tip { mass = m; }`"),
     (&["wheel", "disc", "disk", "part", "solid"], "what moves is a `body`: `body wheel (x, y, phi) { mass = …; inertia = …; }`"),
     (&["screw", "nut", "transmission", "ratio"], "a transmission between coordinates is a `coupler`: `coupler screw: x = lead/(2*pi)*phi;`"),
     (&["rack_pinion", "pinion"], "a pinion on a rack is a `rack` joint"),
@@ -133,7 +135,7 @@ const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["when", "trigger", "zero_crossing", "until"], "a moment that a run finds is an `event`: `event hit: x = 0.2 [m] rising;`"),
     (&["sample", "sampled", "periodic", "clock", "controller", "discrete"], "what a controller does at sample times stands in `every 1 [ms] { set u = …; }`, where `memory u [V] = 0;` holds the value"),
     (&["initial", "init", "initially"], "the motion begins where `start { … }` says"),
-    (&["coordinate", "variable", "var"], "coordinates belong to bodies: `body rod (x, y, theta) { … }`; what is no position is a `state`: `state current [A] = 0; der(current) = …;`"),
+    (&["variable", "var"], "coordinates belong to bodies: `body rod (x, y, theta) { … }`; one with which points move is a `coordinate`: `coordinate w [mm];`; what is no position is a `state`: `state current [A] = 0; der(current) = …;`"),
     (&["marker", "frame", "node"], "a place on a body is a `point`: `point tip on rod = (l/2, 0);`"),
     (&["ground", "fixed_body", "world", "base"], "the ground is a body that is there already, called `ground`"),
     (&["component", "subsystem", "module", "submodel"], "a part that is used more than once is an `assembly`"),

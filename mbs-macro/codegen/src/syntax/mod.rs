@@ -9,6 +9,7 @@ mod indices;
 mod items;
 mod joints;
 mod keywords;
+mod particles;
 mod roles;
 mod solver;
 mod statements;
@@ -76,6 +77,10 @@ pub enum ItemKind {
     Input { name: Ident, unit: UnitText, value: Option<Formula> },
     /// `state current [A] = 0;`
     State { name: Ident, unit: UnitText, value: Option<Formula> },
+    /// `coordinate w [mm];`
+    Coordinate { name: Ident, unit: UnitText },
+    /// `particle bob at rod.tip { mass = m; }`
+    Particle { name: Ident, at: Attachment, properties: Vec<Property> },
     /// `memory integral [rad] = 0;`
     Memory { name: Ident, unit: UnitText, value: Option<Formula> },
     /// `every 1 [ms] offset 0.2 [ms] { … }`

@@ -36,8 +36,14 @@ pub fn check_closure(model: &Model, equations: &Equations, plan: &Plan) -> Resul
     let declared = programs.declared();
     let (at, phi) = match programs.close(&declared.at) {
         Closing::Closed(at, phi) => (at, phi),
-        failure => return Err(failed(model, &programs, &declared, failure).into()),
+        failure => {
+            let error = start::without_place(model, &declared.at);
+            return Err(error.unwrap_or_else(|| failed(model, &programs, &declared, failure)).into());
+        }
     };
+    if let Some(error) = start::without_place(model, &at) {
+        return Err(error.into());
+    }
     check_redundant(model, plan, &programs, &at, &phi)?;
     if let Some(error) = flat(model, &programs, &at) {
         return Err(error.into());

@@ -30,7 +30,7 @@ pub use validation::check_programs;
 pub(crate) use validation::tests as planned;
 
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
-use crate::model::{Coordinate, Direction, Model};
+use crate::model::{Coordinate, Model};
 use crate::plan::{Plan, Unsolvable};
 use crate::reactive::Circular;
 
@@ -92,10 +92,9 @@ fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
     };
     let names: Vec<_> = coordinates.iter().map(|c| c.quantity.name.as_str()).collect();
     // a mass that is 0 by a parameter is none that the declaration says
-    let is_none = |c: &&Coordinate| {
-        let of = c.body().map(|body| &model.bodies[body]);
-        let is_angle = c.direction() == Some(Direction::Angle);
-        of.is_some_and(|body| model.arena.is_zero(if is_angle { body.inertia } else { body.mass }))
+    let is_none = |c: &&Coordinate| match c.body().map(|body| &model.bodies[body]) {
+        Some(body) => model.arena.is_zero(if c.is_angle() { body.inertia } else { body.mass }),
+        None => true,
     };
     let where_zero = if coordinates.iter().all(is_none) {
         ""
@@ -103,5 +102,12 @@ fn undetermined(model: &Model, error: &Undetermined) -> Diagnostics {
         ", whose mass or inertia is 0 at the declared values of its parameters"
     };
     let message = format!("nothing determines the acceleration of {}{where_zero}", listing(names));
-    Diagnostic::new(first.span, message).help("give its body a mass or inertia, or constrain it").into()
+    let help = match first.body() {
+        Some(_) => "give its body a mass or inertia, or constrain it",
+        None => {
+            "let a particle move with it in a direction of its own, or give it by a `constraint`; with other coordinates \
+             that move particles alike it is one coordinate too many"
+        }
+    };
+    Diagnostic::new(first.span, message).help(help).into()
 }

@@ -5,7 +5,8 @@ use mbs_symbolic::units::Dimension;
 use super::programs::{Declared, Programs};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::independence::assembly::Position;
-use crate::model::{Model, Start};
+use crate::model::{Block, Meaning, Model, Start};
+use crate::quantity::Quantity;
 
 /// The deviation that a declared value may have, as a share of the size of the mechanism, or
 /// in radians; that of a rate is a share of the fastest one. Published starts are printed to
@@ -100,6 +101,22 @@ fn not_kept(model: &Model, lost: &Lost<'_>) -> Diagnostic {
     ))
 }
 
+/// The error for a particle whose place has no value at the start.
+pub fn without_place(model: &Model, at: &Position) -> Option<Diagnostic> {
+    let symbols = model.values(|meaning| match meaning {
+        Meaning::Coordinate(coordinate) => at.q.get(coordinate).copied().unwrap_or(f64::NAN),
+        _ => f64::NAN,
+    });
+    model.particles.iter().zip(&model.particle_names).find_map(|(particle, name)| {
+        let place = model.arena.evaluate(&particle.place.components(), &symbols);
+        let wrong = place.iter().zip(["x", "y"]).find(|(x, _)| !x.is_finite());
+        wrong.map(|(value, axis)| {
+            Diagnostic::new(name.span(), format!("the place of `{name}` has no value at the start: its {axis} is {value}"))
+                .help("declare a start at which the formula of its point, its roots, quotients and tables have a value")
+        })
+    })
+}
+
 /// The error for a start in a singular position.
 pub fn singular(
     model: &Model,
@@ -131,6 +148,9 @@ pub fn singular(
 
 /// A value of a coordinate as it is written in a declaration.
 pub fn value(model: &Model, coordinate: usize, value: f64) -> String {
+    if let Some(unit) = own_unit(model, coordinate) {
+        return format!("{} [{}]", rounded(value / unit.scale), unit.unit);
+    }
     if is_length(model, coordinate) {
         format!("{} [m]", rounded(value))
     } else {
@@ -139,8 +159,17 @@ pub fn value(model: &Model, coordinate: usize, value: f64) -> String {
 }
 
 fn rate(model: &Model, coordinate: usize, value: f64) -> String {
+    if let Some(unit) = own_unit(model, coordinate) {
+        return format!("{} [{}/s]", rounded(value / unit.scale), unit.unit);
+    }
     let unit = if is_length(model, coordinate) { "[m/s]" } else { "[rad/s]" };
     format!("{} {unit}", rounded(value))
+}
+
+/// The quantity of a coordinate of its own, whose unit is declared.
+fn own_unit(model: &Model, coordinate: usize) -> Option<&Quantity> {
+    let coordinate = &model.coordinates[coordinate];
+    (coordinate.block == Block::Free).then_some(&coordinate.quantity)
 }
 
 fn is_length(model: &Model, coordinate: usize) -> bool {

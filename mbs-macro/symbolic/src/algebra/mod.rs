@@ -125,6 +125,11 @@ impl<'a> Scalar<'a> {
         self.algebra.make(self.expr, Arena::share)
     }
 
+    /// The same with terms of equal powers collected; see [`Arena::collected`].
+    pub fn collected(self) -> Self {
+        self.algebra.make(self.expr, Arena::collected)
+    }
+
     /// x to an integer power.
     pub fn powi(self, exponent: i32) -> Self {
         self.algebra.make((self.expr, exponent), |arena, (x, exponent)| arena.powi(x, exponent))

@@ -28,6 +28,10 @@ pub(super) fn draw(sketch: &Sketch, picture: &mut Picture) {
     for (colour, body) in sketch.bodies.iter().enumerate() {
         maker.body(body, colour);
     }
+    for &at in sketch.particles {
+        let colour = maker.colour_of(at).unwrap_or(0);
+        maker.shapes.push(Shape::Dot { at, colour });
+    }
     let Maker { mut shapes, traced, weight, .. } = maker;
     shapes.sort_by_key(layer);
     shapes.dedup();
@@ -109,8 +113,11 @@ impl<'a> Maker<'a> {
         if self.span > 0.0 { (typical / (0.07 * self.span)).clamp(0.35, 1.0) } else { 1.0 }
     }
 
-    /// The ends or corners of a body.
+    /// The ends or corners of a body; of one that bends, its points in order.
     fn outline(&self, body: &Body) -> Vec<usize> {
+        if !body.is_rigid {
+            return body.points.to_vec();
+        }
         let places: Vec<_> = body.points.iter().map(|&point| self.picture.place(0, point)).collect();
         outline(&places, SAME * self.span).into_iter().filter_map(|at| body.points.get(at).copied()).collect()
     }
@@ -291,6 +298,10 @@ impl<'a> Maker<'a> {
                 }
             }
             [a, b] => self.shapes.push(Shape::Bar { between: [a, b], colour }),
+            _ if !body.is_rigid => {
+                let bars = outline.windows(2).filter_map(|pair| pair.first_chunk().copied());
+                self.shapes.extend(bars.map(|between| Shape::Bar { between, colour }));
+            }
             _ => self.shapes.push(Shape::Plate { corners: outline.clone(), colour }),
         }
         let is_plain = |at: usize| {

@@ -76,7 +76,7 @@ fn axis_of(column: &Column) -> Axis {
 /// The kind of quantity of a column. Columns of one kind and one unit share panels.
 fn kind(recording: &Recording, column: &Column) -> &'static str {
     let at = recording.columns.iter().position(|other| other.name == column.name).unwrap_or(0);
-    let is_length = column.unit.starts_with('m');
+    let is_length = !matches!(column.unit.split('/').next(), None | Some("" | "1" | "rad" | "deg" | "rev"));
     match at.checked_sub(1) {
         Some(at) if at < 2 * recording.coordinates && at % recording.coordinates >= recording.lines => {
             if at < recording.coordinates { "integral of a state" } else { "state" }

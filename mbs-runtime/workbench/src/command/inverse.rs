@@ -229,9 +229,10 @@ impl Shown {
             columns.push(column(format!("der({})", q.name), &unit, all(|x| &x.v, at)));
         }
         for (at, q) in info.coordinates.iter().enumerate() {
-            let unit = format!("{}/s^2", Unit::of_coordinate(q).name());
-            let mut accelerations = Column::new(format!("der(der({}))", q.name), unit);
-            accelerations.values = all(|x| &x.acceleration, at).collect();
+            let unit = Unit::of_coordinate(q);
+            let name = format!("{}/s^2", unit.name());
+            let mut accelerations = Column::new(format!("der(der({}))", q.name), name);
+            accelerations.values = all(|x| &x.acceleration, at).map(|x| unit.shown(x)).collect();
             columns.push(accelerations);
         }
         let mut takes = Vec::new();

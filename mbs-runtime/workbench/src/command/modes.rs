@@ -182,10 +182,10 @@ impl Shown<'_> {
         for at in self.coordinates() {
             let coordinate = self.info.coordinates.get(at)?;
             let components = self.modes.iter().map(|mode| component(mode.shape[at]));
+            // shapes are ratios of SI units
             let unit = match self.info.is_own(at) {
-                // shapes are ratios of SI units
                 true => Unit::si(coordinate.dimension),
-                false => Unit::of_coordinate(coordinate),
+                false => Unit::of_place(coordinate.dimension),
             };
             let unit = unit.name().to_owned();
             table.row([coordinate.name.to_owned()].into_iter().chain(components).chain([unit]));

@@ -77,8 +77,14 @@ impl dyn Model + '_ {
         let picture = Picture::of(&self.motion(settings, &recording)?);
         let info = self.info();
         // what is not named is in SI units
-        let own = (info.lines..).zip(shown(info.coordinates.get(info.lines..).unwrap_or_default()));
-        let rates: Map<String, Value> = own.map(|(at, unit)| (at.to_string(), unit)).collect();
+        let all = info.coordinates.iter().zip(shown(info.coordinates)).enumerate();
+        let scaled = all.filter(|(_, (quantity, _))| quantity.scale != 1.0);
+        let scaled: Vec<(usize, Value)> = scaled.map(|(at, (_, unit))| (at, unit)).collect();
+        let of = |most: usize| -> Map<String, Value> {
+            let units = scaled.iter().filter(|(at, _)| *at < most);
+            units.map(|(at, unit)| (at.to_string(), unit.clone())).collect()
+        };
+        let (places, rates) = (of(info.lines), of(info.coordinates.len()));
         let data = json!({
             "file": file,
             "step": step,
@@ -88,6 +94,7 @@ impl dyn Model + '_ {
             "parameters": shown(info.parameters),
             "inputs": shown(info.inputs),
             "outputs": shown(info.outputs),
+            "places": places,
             "rates": rates,
             "start": { "parameters": parameters, "inputs": inputs },
             "bodies": self.sketch().bodies.iter().map(|body| json!({ "name": body.name, "points": body.points })).collect::<Vec<_>>(),

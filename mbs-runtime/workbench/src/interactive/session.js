@@ -21,7 +21,7 @@ const session = await (async () => {
   function record() {
     const { multipliers, outputs } = run.results();
     const shown = (values, of) => Array.from(values, (value, at) => value / (of[at]?.scale ?? 1));
-    rows.push([run.t, ...run.q, ...shown(run.v, data.rates), ...multipliers, ...shown(outputs, data.outputs), run.violation()]);
+    rows.push([run.t, ...shown(run.q, data.places), ...shown(run.v, data.rates), ...multipliers, ...shown(outputs, data.outputs), run.violation()]);
     if (rows.length > MOST_ROWS) rows.splice(0, MOST_ROWS / 10);
   }
 

@@ -66,6 +66,7 @@ fn counts(target: &Target<'_>) -> String {
         ("EVENTS", compiled.events.len()),
         ("POINTS", compiled.sketch.points.len()),
         ("JACOBIAN", compiled.jacobian.len()),
+        ("MASSES", compiled.masses.len()),
         ("PIVOTS", compiled.pivots.len()),
         ("START_PIVOTS", compiled.start_pivots.len()),
         ("CONDITIONS", compiled.conditions.len()),

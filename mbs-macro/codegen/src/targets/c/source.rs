@@ -120,6 +120,8 @@ fn tables(target: &Target<'_>) -> String {
     add("static const char *const NAME_start_pivot_names[]", pivots(&compiled.start_pivots), "0");
     let places = compiled.jacobian.iter().map(|(row, column)| format!("{{{row}, {column}}}")).collect();
     add("const int NAME_phi_q_places[][2]", places, "{0, 0}");
+    let places = compiled.masses.iter().map(|(row, column)| format!("{{{row}, {column}}}")).collect();
+    add("const int NAME_mass_places[][2]", places, "{0, 0}");
     if compiled.has_reduced_states() {
         let states = compiled.states.iter().map(ToString::to_string).collect();
         add("/* Which coordinates are integrated. */\nstatic const int NAME_state_places[]", states, "0");

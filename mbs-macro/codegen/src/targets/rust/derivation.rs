@@ -8,7 +8,8 @@ use crate::compiled::{Compiled, Derivation, Elimination, Formula};
 pub fn emit(compiled: &Compiled) -> TokenStream {
     let runtime = &compiled.written.runtime;
     let Derivation { phi, phi_q, phi_t, phi_dot, gamma, mass, forces, .. } = &compiled.derivation;
-    let Derivation { rates, kinetic_energy, potential_energy, strategy, order, .. } = &compiled.derivation;
+    let Derivation { rates, keeps_energy, kinetic_energy, potential_energy, strategy, order, .. } =
+        &compiled.derivation;
     let [phi, phi_q, phi_t, phi_dot, gamma, mass, forces, rates] =
         [phi, phi_q, phi_t, phi_dot, gamma, mass, forces, rates].map(|formulas| {
             let formulas = formulas.iter().filter(|formula| !formula.is_zero);
@@ -28,7 +29,7 @@ pub fn emit(compiled: &Compiled) -> TokenStream {
             phi: &[#phi], phi_q: &[#phi_q], phi_t: &[#phi_t], phi_dot: &[#phi_dot],
             gamma: &[#gamma], mass: &[#mass], forces: &[#forces], rates: &[#rates],
             samples: &[#(#samples),*],
-            kinetic_energy: #kinetic, potential_energy: #potential,
+            keeps_energy: #keeps_energy, kinetic_energy: #kinetic, potential_energy: #potential,
             strategy: #strategy, order: &[#(#order),*],
         }
     }

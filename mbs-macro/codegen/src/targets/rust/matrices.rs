@@ -33,15 +33,16 @@ pub fn emit(compiled: &Compiled, names: &Names, docs: &docs::Functions<'_>) -> T
     };
     let mass = {
         let Body { statements, outputs, .. } = body(compiled, names, FunctionId::Mass, &position);
-        let diagonal = outputs.into_iter().enumerate().map(|(at, mass)| ((at, at), mass)).collect();
-        let matrix = matrix(nalgebra, (n, n), &diagonal);
+        let halves = compiled.masses.iter().zip(outputs);
+        let entries = halves.flat_map(|(&(i, j), mass)| [((i, j), mass.clone()), ((j, i), mass)]).collect();
+        let matrix = matrix(nalgebra, (n, n), &entries);
         quote!(#statements #matrix)
     };
     let phi_q_doc = docs.with_text(
         FunctionId::PhiQ,
         "Jacobian Φ_q, one row per constraint, one column per coordinate. Entries that are not 0:",
     );
-    let mass_doc = docs.with_text(FunctionId::Mass, "Mass matrix M. Its diagonal, all that is not 0:");
+    let mass_doc = docs.with_text(FunctionId::Mass, "Mass matrix M. Entries that are not 0:");
     quote! {
         #[doc = #phi_q_doc]
         #[inline]

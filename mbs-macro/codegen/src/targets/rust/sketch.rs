@@ -5,17 +5,17 @@ use quote::quote;
 
 use super::body::Body;
 use super::names::Names;
-use crate::compiled::{Link, Sketch};
+use crate::compiled::{Link, Sketch, SketchBody};
 
 /// The value of `SKETCH`.
 pub fn emit(sketch: &Sketch, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
     let points = &sketch.points;
-    let bodies = sketch.bodies.iter().map(|(name, points)| {
+    let bodies = sketch.bodies.iter().map(|SketchBody { name, points, is_rigid }| {
         let points = positions(points);
-        quote!(#runtime::sketch::Body { name: #name, points: #points })
+        quote!(#runtime::sketch::Body { name: #name, points: #points, is_rigid: #is_rigid })
     });
-    let ground = positions(&sketch.ground);
+    let (ground, particles) = (positions(&sketch.ground), positions(&sketch.particles));
     let joints = sketch.joints.iter().map(|joint| {
         let Link { name, kind, first, second, ahead } = joint;
         let (first, second) = (Literal::usize_unsuffixed(*first), Literal::usize_unsuffixed(*second));
@@ -37,6 +37,7 @@ pub fn emit(sketch: &Sketch, names: &Names) -> TokenStream {
             points: &[#(#points),*],
             bodies: &[#(#bodies),*],
             ground: #ground,
+            particles: #particles,
             joints: &[#(#joints),*],
             springs: &[#(#springs),*],
         }

@@ -4,6 +4,7 @@
 use mbs_interface::FunctionId;
 use mbs_symbolic::Rounded;
 
+use super::bodies::{Moved, dot};
 use super::{Check, DIRECTIONS, Jet, Point};
 
 impl Point<'_> {
@@ -22,7 +23,7 @@ impl Point<'_> {
         self.agree(FunctionId::BaumgarteRhs, &rhs)?;
         self.jacobian()?;
         let forces = self.known_forces();
-        self.agree(FunctionId::Mass, &self.bodies.masses)?;
+        self.masses()?;
         // what depends on reactions is judged by the balance that it keeps
         if model.reactive_loads.is_empty() {
             self.agree(FunctionId::Forces, &forces)?;
@@ -32,9 +33,15 @@ impl Point<'_> {
         self.agree(FunctionId::PotentialEnergy, &[potential])?;
         let momentum = |at: usize| match model.coordinates[at].is_own() {
             true => Rounded::default(),
-            false => self.mass(at) * Rounded::exact(self.velocity(at)),
+            false => self.bodies.own[at] * Rounded::exact(self.velocity(at)),
         };
-        let momentum: Vec<_> = (0..model.coordinates.len()).map(momentum).collect();
+        let mut momentum: Vec<_> = (0..model.coordinates.len()).map(momentum).collect();
+        for Moved { mass, place, columns } in &self.bodies.particles {
+            let velocity = [0, 1].map(|at| place[at].first);
+            for (at, column) in columns {
+                momentum[*at] = momentum[*at] + *mass * dot(*column, velocity);
+            }
+        }
         self.agree(FunctionId::KineticMomentum, &momentum)?;
         let outputs: Vec<_> = model.outputs.iter().map(|output| self.value(output.value)).collect();
         self.agree(FunctionId::Outputs, &outputs)?;
@@ -47,6 +54,20 @@ impl Point<'_> {
         let samples: Vec<_> =
             clocks.flat_map(|it| it.sets.iter().map(|(_, value)| self.value(*value))).collect();
         self.agree(FunctionId::Samples, &samples)
+    }
+
+    /// The entries of M; those that have no place are 0.
+    fn masses(&self) -> Check {
+        let mut expected = self.bodies.masses.clone();
+        let places = self.plan.mass_places.iter();
+        let entries: Vec<_> = places.map(|place| expected.remove(place).unwrap_or_default()).collect();
+        self.agree(FunctionId::Mass, &entries)?;
+        match expected.into_iter().find(|(_, entry)| !is_close(Rounded::default(), *entry)) {
+            Some(((i, j), entry)) => {
+                Err(format!("`mass` leaves out its entry ({i}, {j}), {:e}", entry.value))
+            }
+            None => Ok(()),
+        }
     }
 
     /// A function gives what is expected, as far as rounding lets one tell.
@@ -92,10 +113,15 @@ impl Point<'_> {
         let mut kinetic = Rounded::default();
         let lines = self.model.coordinates.iter().enumerate().filter(|(_, coordinate)| !coordinate.is_own());
         for (at, coordinate) in lines {
-            let (mass, velocity) = (self.mass(at), Rounded::exact(self.velocity(at)));
+            let (mass, velocity) = (self.bodies.own[at], Rounded::exact(self.velocity(at)));
             kinetic = kinetic + Rounded::exact(0.5) * mass * velocity * velocity;
             let position = Rounded::exact((self.symbol)(coordinate.position));
             potential = potential - mass * self.gravity(at) * position;
+        }
+        for Moved { mass, place, .. } in &self.bodies.particles {
+            let (at, velocity) = (place.map(|x| x.value), place.map(|x| x.first));
+            kinetic = kinetic + Rounded::exact(0.5) * *mass * dot(velocity, velocity);
+            potential = potential - *mass * dot(self.bodies.gravity, at);
         }
         (kinetic, potential)
     }

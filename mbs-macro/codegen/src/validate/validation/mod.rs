@@ -10,7 +10,7 @@ mod solutions;
 use mbs_interface::FunctionId;
 use mbs_symbolic::{Expr, Operand, Program, Rounded, Symbol, Tape};
 
-use self::bodies::{Bodies, evaluate};
+use self::bodies::{Bodies, Moved, dot, evaluate};
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::independence::Samples;
@@ -182,8 +182,19 @@ impl Point<'_> {
         1.0 + ((at + 1) as f64 * (direction as f64 + 0.618)).sin()
     }
 
+    /// The diagonal entry of M.
     fn mass(&self, at: usize) -> Rounded {
-        self.bodies.masses[at]
+        self.bodies.masses.get(&(at, at)).copied().unwrap_or_default()
+    }
+
+    /// Every entry of M with its row and its column.
+    fn over_masses(&self, mut each: impl FnMut(Rounded, usize, usize)) {
+        for (&(i, j), &mass) in &self.bodies.masses {
+            each(mass, i, j);
+            if i != j {
+                each(mass, j, i);
+            }
+        }
     }
 
     fn gravity(&self, at: usize) -> Rounded {
@@ -196,8 +207,14 @@ impl Point<'_> {
 
     /// Q without the loads that depend on reactions.
     fn known_forces(&self) -> Vec<Rounded> {
-        let weight = |at: usize| self.mass(at) * self.gravity(at);
+        let weight = |at: usize| self.bodies.own[at] * self.gravity(at);
         let mut forces: Vec<_> = (0..self.model.coordinates.len()).map(weight).collect();
+        for Moved { mass, place, columns } in &self.bodies.particles {
+            let pull = [0, 1].map(|at| self.bodies.gravity[at] - place[at].second);
+            for (at, column) in columns {
+                forces[*at] = forces[*at] + *mass * dot(*column, pull);
+            }
+        }
         for load in &self.model.loads {
             forces[load.coordinate] = forces[load.coordinate] + self.value(load.value);
         }

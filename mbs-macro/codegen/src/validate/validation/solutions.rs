@@ -222,13 +222,18 @@ impl Point<'_> {
                 errors.set(errors.get() + factor.value.abs() * solved.error);
                 x.value
             };
-            let inertia = accelerations.iter().enumerate().map(|(at, &acceleration)| {
-                let weight = Rounded::exact(self.weight(at, direction));
-                count(weight * self.mass(at), acceleration) - count(weight * forces[at], Rounded::exact(1.0))
+            let mut rest = 0.0;
+            self.over_masses(|mass, row, column| {
+                let weight = Rounded::exact(self.weight(row, direction));
+                rest += count(weight * mass, accelerations[column]);
             });
-            let constraints =
-                along.iter().zip(multipliers).map(|(row, &multiplier)| count(row.first, multiplier));
-            let rest: f64 = inertia.chain(constraints).sum();
+            for (at, &force) in forces.iter().enumerate() {
+                let weight = Rounded::exact(self.weight(at, direction));
+                rest -= count(weight * force, Rounded::exact(1.0));
+            }
+            for (row, &multiplier) in along.iter().zip(multipliers) {
+                rest += count(row.first, multiplier);
+            }
             let terms = terms.get() + self.augmented(accelerations);
             if exceeds(rest, terms, errors.get()) {
                 return Err(format!("`reactions` do not balance the forces: {rest:e} is left of {terms:e}"));

@@ -122,8 +122,9 @@ impl Shown<'_> {
     pub fn columns(&self, best: &Linkage) -> Vec<Column> {
         let coordinates = self.model.info().coordinates.iter().enumerate();
         let column = |(at, q): (usize, &mbs_runtime::Quantity)| {
-            let values = best.path.iter().filter_map(|place| place.get(at).copied()).collect();
-            Column { values, ..Column::new(q.name, Unit::of_coordinate(q).name()) }
+            let unit = Unit::of_coordinate(q);
+            let places = best.path.iter().filter_map(|place| place.get(at));
+            Column { values: places.map(|x| unit.shown(*x)).collect(), ..Column::new(q.name, unit.name()) }
         };
         coordinates.map(column).collect()
     }

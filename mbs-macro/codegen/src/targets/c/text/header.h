@@ -52,6 +52,8 @@ extern const char *const NAME_point_names[CAPS_POINTS + 1];
 
 /** Row and column of the entries of the Jacobian; one more at the end. */
 extern const int NAME_phi_q_places[CAPS_JACOBIAN + 1][2];
+/** Row and column of the entries of the mass matrix, one half of it; one more at the end. */
+extern const int NAME_mass_places[CAPS_MASSES + 1][2];
 
 /** The declared parameters. */
 void NAME_default_parameters(struct NAME_parameters *parameters);
