@@ -122,7 +122,9 @@ fn variant(
         Text::declaration("drawn.mbs", &*text).compile().map_err(|error| format!("{error}\n{text}"))?;
     let mut columns: Vec<usize> = (0..drawn.coordinates().len()).collect();
     let bodies: Vec<usize> = drawn.coordinates().iter().map(|(body, _)| *body).collect();
-    columns.sort_by_key(|&at| (orders[0].iter().position(|&body| body == bodies[at]), at));
+    // coordinates of its own are declared behind bodies
+    let place = |at: usize| orders[0].iter().position(|&body| body == bodies[at]).unwrap_or(usize::MAX);
+    columns.sort_by_key(|&at| (place(at), at));
     let rows: Vec<usize> = orders[1].iter().flat_map(|&joint| drawn.rows_of(joint)).collect();
     let redundant = live.declared_info().redundant;
     let independent = (0..rows.len()).filter(|row| !redundant.contains(row)).map(|row| rows[row]).collect();

@@ -1,6 +1,6 @@
 //! Random mechanisms, assembled as they are drawn.
 
-use super::{Body, Joint, Kind, Mechanism, Place, Spring};
+use super::{Body, Joint, Kind, Mechanism, Particle, Place, Spring};
 use crate::random::Random;
 
 /// The mechanism with this number: always the same.
@@ -72,12 +72,52 @@ impl Pen {
         Body { has, at, mass: self.positive(5.0), inertia: self.positive(1.0), is_parametric }
     }
 
+    fn empty(&mut self, bodies: Vec<Body>) -> Mechanism {
+        let (own, particles, joints, springs) = Default::default();
+        Mechanism { gravity: self.gravity(), bodies, own, particles, joints, springs }
+    }
+
+    /// Particles on bodies, and some that move on them or over the ground.
+    fn weigh(&mut self, drawn: &mut Mechanism) {
+        for own in 0..self.random.below(3) {
+            let at = self.number(-0.5, 0.5);
+            drawn.own.push(at);
+            // two of one coordinate now and then
+            for _ in 0..=self.random.below(2) {
+                let body = self.random.below(drawn.bodies.len() + 1);
+                let (body, along) = ((body < drawn.bodies.len()).then_some(body), self.direction());
+                let place = Place { moves: Some((own, along)), ..Place::of(body, self.local()) };
+                drawn.particles.push(Particle { place, mass: self.positive(3.0) });
+            }
+        }
+        for _ in 0..self.random.below(3) {
+            let body = self.random.below(drawn.bodies.len());
+            let has = drawn.bodies[body].has;
+            if has[0] || has[1] {
+                let place = Place::of(Some(body), self.local());
+                drawn.particles.push(Particle { place, mass: self.positive(3.0) });
+            }
+        }
+    }
+
+    /// A place of a body that moves there, if there is a coordinate for it and chance has it.
+    fn somewhere(&mut self, drawn: &Mechanism, body: usize) -> Place {
+        let place = Place::of(Some(body), self.local());
+        if drawn.own.is_empty() || self.random.once_in(2) {
+            return place;
+        }
+        let (own, along) = (self.random.below(drawn.own.len()), self.direction());
+        Place { moves: Some((own, along)), ..place }
+    }
+
     /// Bodies on each other or on the ground, some loops, some springs.
     fn linkage(&mut self) -> Mechanism {
         let count = 1 + self.random.below(4);
         let bodies = (0..count).map(|_| self.body()).collect();
-        let mut drawn =
-            Mechanism { gravity: self.gravity(), bodies, joints: Vec::new(), springs: Vec::new() };
+        let mut drawn = self.empty(bodies);
+        if self.random.once_in(3) {
+            self.weigh(&mut drawn);
+        }
         for body in 0..count {
             if self.random.once_in(8) {
                 continue; // free
@@ -106,7 +146,7 @@ impl Pen {
     }
 
     fn join(&mut self, drawn: &mut Mechanism, body: usize, other: Option<usize>) {
-        let first = Place { body: Some(body), local: self.local() };
+        let first = self.somewhere(drawn, body);
         let here = drawn.spot(&first);
         let (own, base) = (drawn.turn(Some(body)), drawn.turn(other));
         let along = self.direction();
@@ -139,7 +179,7 @@ impl Pen {
 
     /// A spring, now and then between places that coincide.
     fn spring(&mut self, drawn: &mut Mechanism, body: usize, other: Option<usize>) {
-        let first = Place { body: Some(body), local: self.local() };
+        let first = self.somewhere(drawn, body);
         let (stiffness, damping) = (self.positive(200.0), self.positive(5.0));
         let is_coincident = self.random.once_in(3);
         let here = drawn.spot(&first);
@@ -164,12 +204,11 @@ impl Pen {
             is_parametric: pen.random.once_in(2),
         };
         let bodies = (0..count).map(|_| node(self)).collect();
-        let mut drawn =
-            Mechanism { gravity: self.gravity(), bodies, joints: Vec::new(), springs: Vec::new() };
-        let held = Place { body: Some(0), local: [0.0; 2] };
+        let mut drawn = self.empty(bodies);
+        let held = Place::of(Some(0), [0.0; 2]);
         let ground = drawn.at(None, drawn.spot(&held));
         drawn.joints.push(Joint { kind: Kind::Revolute, places: [held, ground] });
-        let guided = Place { body: Some(1), local: [0.0; 2] };
+        let guided = Place::of(Some(1), [0.0; 2]);
         let ground = drawn.at(None, drawn.spot(&guided));
         let along = self.direction();
         drawn.joints.push(Joint { kind: Kind::PointOnLine { along }, places: [guided, ground] });
@@ -189,10 +228,10 @@ impl Pen {
     }
 
     fn bar(&mut self, drawn: &mut Mechanism, body: usize, other: Option<usize>) {
-        let first = Place { body: Some(body), local: [0.0; 2] };
+        let first = Place::of(Some(body), [0.0; 2]);
         let second = match other {
-            Some(_) => Place { body: other, local: [0.0; 2] },
-            None => Place { body: None, local: [self.number(-3.0, 3.0), self.number(-3.0, 3.0)] },
+            Some(_) => Place::of(other, [0.0; 2]),
+            None => Place::of(None, [self.number(-3.0, 3.0), self.number(-3.0, 3.0)]),
         };
         let [a, b] = [drawn.spot(&first), drawn.spot(&second)];
         let length = (a[0] - b[0]).hypot(a[1] - b[1]);
@@ -215,7 +254,7 @@ impl Mechanism {
     /// The place of a body at a spot of the drawing.
     fn at(&self, body: Option<usize>, spot: [f64; 2]) -> Place {
         let [x, y, angle] = body.map_or([0.0; 3], |at| self.bodies[at].at);
-        Place { body, local: turn([spot[0] - x, spot[1] - y], -angle) }
+        Place::of(body, turn([spot[0] - x, spot[1] - y], -angle))
     }
 }
 

@@ -34,6 +34,15 @@ pub struct Place {
     pub body: Option<usize>,
     /// In the body's frame, in m.
     pub local: [f64; 2],
+    /// The coordinate of its own that moves it in the body's frame, and by how much.
+    pub moves: Option<(usize, [f64; 2])>,
+}
+
+impl Place {
+    /// A place that does not move on its body.
+    pub const fn of(body: Option<usize>, local: [f64; 2]) -> Self {
+        Self { body, local, moves: None }
+    }
 }
 
 /// Joints by the names of their statements, with directions in the frame of the second body.
@@ -67,28 +76,45 @@ pub struct Spring {
     pub damping: f64,
 }
 
+/// A point mass.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the words of the statement")]
+pub struct Particle {
+    pub place: Place,
+    pub mass: f64,
+}
+
 /// The numbers of a declaration.
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "the words of the statements")]
 pub struct Mechanism {
     pub gravity: [f64; 2],
     pub bodies: Vec<Body>,
+    /// Where coordinates of its own are drawn.
+    pub own: Vec<f64>,
+    pub particles: Vec<Particle>,
     pub joints: Vec<Joint>,
     pub springs: Vec<Spring>,
 }
 
 impl Mechanism {
-    /// Body and component of each coordinate, in the order of the bodies.
+    /// Body and component of each coordinate, in the order of the bodies. Those of its own follow as component 3 of
+    /// bodies that are none.
     pub fn coordinates(&self) -> Vec<(usize, usize)> {
         let of = |(at, body): (usize, &Body)| {
             (0..3).filter(|&axis| body.has[axis]).map(move |axis| (at, axis)).collect::<Vec<_>>()
         };
-        self.bodies.iter().enumerate().flat_map(of).collect()
+        let own = (0..self.own.len()).map(|at| (self.bodies.len() + at, 3));
+        self.bodies.iter().enumerate().flat_map(of).chain(own).collect()
     }
 
     /// The coordinates as they are drawn.
     pub fn drawn(&self) -> Vec<f64> {
-        self.coordinates().iter().map(|&(body, axis)| self.bodies[body].at[axis]).collect()
+        let drawn = |&(body, axis): &(usize, usize)| match self.bodies.get(body) {
+            Some(body) => body.at[axis],
+            None => self.own[body - self.bodies.len()],
+        };
+        self.coordinates().iter().map(drawn).collect()
     }
 
     /// x, y and angle of a body, or of the ground.
@@ -105,7 +131,12 @@ impl Mechanism {
     /// Where a place is.
     pub fn place<T: Real>(&self, place: &Place, q: &[T]) -> [T; 2] {
         let [x, y, angle] = self.pose(place.body, q);
-        let [u, v] = turned(place.local.map(T::from_f64), angle);
+        let mut local = place.local.map(T::from_f64);
+        if let Some((own, along)) = place.moves {
+            let w = q[q.len() - self.own.len() + own];
+            local = std::array::from_fn(|axis| local[axis] + w * T::from_f64(along[axis]));
+        }
+        let [u, v] = turned(local, angle);
         [x + u, y + v]
     }
 

@@ -102,7 +102,7 @@ impl Mechanism {
                 return Judgement::Unclear("singular position");
             }
         }
-        let inertia = here.free.transpose() * self.masses() * &here.free;
+        let inertia = here.free.transpose() * self.masses(&q) * &here.free;
         if !is_small(&split(&inertia).values) {
             Judgement::Regular { rank: here.rank }
         } else {
@@ -123,12 +123,31 @@ impl Mechanism {
         v.as_slice().to_vec()
     }
 
-    fn masses(&self) -> DMatrix<f64> {
-        let mass = |&(body, axis): &(usize, usize)| {
-            let body = &self.bodies[body];
-            if axis < 2 { body.mass } else { body.inertia }
+    fn masses(&self, q: &[f64]) -> DMatrix<f64> {
+        let mass = |&(body, axis): &(usize, usize)| match self.bodies.get(body) {
+            Some(body) if axis < 2 => body.mass,
+            Some(body) => body.inertia,
+            None => 0.0,
         };
-        DMatrix::from_diagonal(&DVector::from_vec(self.coordinates().iter().map(mass).collect()))
+        let mut masses =
+            DMatrix::from_diagonal(&DVector::from_vec(self.coordinates().iter().map(mass).collect()));
+        for particle in &self.particles {
+            let columns = self.columns(&particle.place, q);
+            masses += particle.mass * &columns * columns.transpose();
+        }
+        masses
+    }
+
+    /// ∂s/∂q of a place, a row for each coordinate.
+    fn columns(&self, place: &super::Place, q: &[f64]) -> DMatrix<f64> {
+        let mut columns = DMatrix::zeros(q.len(), 2);
+        for row in 0..q.len() {
+            let direction = |i: usize| f64::from(u8::from(i == row));
+            let jets: Vec<Jet> = q.iter().enumerate().map(|(i, q)| line(*q, direction(i))).collect();
+            let moved = self.place(place, &jets);
+            (0..2).for_each(|axis| columns[(row, axis)] = first(moved[axis]));
+        }
+        columns
     }
 
     fn forces(&self, q: &[f64], v: &[f64]) -> DVector<f64> {
@@ -136,6 +155,12 @@ impl Mechanism {
             self.gravity.get(axis).map_or(0.0, |g| self.bodies[body].mass * g)
         };
         let mut forces = DVector::from_vec(self.coordinates().iter().map(weight).collect());
+        for particle in &self.particles {
+            let jets: Vec<Jet> = q.iter().zip(v).map(|(q, v)| line(*q, *v)).collect();
+            let turning = self.place(&particle.place, &jets).map(second);
+            let pull = DVector::from_fn(2, |axis, _| self.gravity[axis] - turning[axis]);
+            forces += particle.mass * self.columns(&particle.place, q) * pull;
+        }
         for spring in &self.springs {
             self.pull(spring, q, v, &mut forces);
         }
@@ -178,7 +203,7 @@ impl Mechanism {
         let rows = self.rows_at(q, v);
         let parts = split(&rows.jacobian);
         let forced = -&parts.inverse * &rows.gamma;
-        let masses = self.masses();
+        let masses = self.masses(q);
         let inertia = parts.free.transpose() * &masses * &parts.free;
         let forces = self.forces(q, v);
         let alone = forces.component_div(&masses.diagonal());
@@ -193,7 +218,7 @@ impl Mechanism {
     /// left there, which differs from one order of operations to the next. By the passage of the language, the
     /// rate along r has the share (|r|/ε)² of that, 1e-9 for places some metres away.
     fn open(&self, q: &[f64], v: &[f64]) -> f64 {
-        let masses = self.masses();
+        let masses = self.masses(q);
         let least = masses.diagonal().iter().copied().fold(f64::INFINITY, f64::min);
         let of = |spring: &Spring| {
             let jets: Vec<Jet> = q.iter().zip(v).map(|(q, v)| line(*q, *v)).collect();
@@ -214,7 +239,7 @@ impl Mechanism {
     pub fn condition(&self, q: &[f64], rows: &[usize]) -> f64 {
         let jacobian = self.rows_at(q, &vec![0.0; q.len()]).jacobian.select_rows(rows);
         let parts = split(&jacobian);
-        let masses = self.masses();
+        let masses = self.masses(q);
         let inner = split(&(parts.free.transpose() * &masses * &parts.free));
         let mut masses: Vec<f64> = masses.diagonal().as_slice().to_vec();
         masses.sort_by(|a, b| b.total_cmp(a));

@@ -21,6 +21,13 @@ impl Mechanism {
         for &at in bodies {
             self.bodies[at].write(at, &mut text);
         }
+        for at in 0..self.own.len() {
+            let _ = writeln!(text, "coordinate w{at} [m];");
+        }
+        for (at, particle) in self.particles.iter().enumerate() {
+            let place = named(&format!("p{at}"), &particle.place, &mut text);
+            let _ = writeln!(text, "particle p{at} at {place} {{ mass = {} [kg]; }}", particle.mass);
+        }
         for &at in joints {
             self.joints[at].write(at, &mut text);
         }
@@ -34,8 +41,13 @@ impl Mechanism {
         }
         text += "start {";
         for (body, axis) in self.coordinates() {
+            let Some(of) = self.bodies.get(body) else {
+                let at = body - self.bodies.len();
+                let _ = write!(text, " guess w{at} = {} [m];", self.own[at]);
+                continue;
+            };
             let unit = if axis < 2 { " [m]" } else { "" };
-            let _ = write!(text, " guess {}{body} = {}{unit};", NAMES[axis], self.bodies[body].at[axis]);
+            let _ = write!(text, " guess {}{body} = {}{unit};", NAMES[axis], of.at[axis]);
         }
         text + " } }\n"
     }
@@ -89,14 +101,21 @@ impl Joint {
 
 /// Declares two places and gives their names.
 fn pair(name: &str, places: &[Place; 2], text: &mut String) -> [String; 2] {
-    ["a", "b"].map(|end| {
-        let place = &places[usize::from(end == "b")];
-        let body = place.body.map_or("ground".to_owned(), |at| format!("b{at}"));
-        let [x, y] = place.local;
-        if [x, y] == [0.0; 2] {
-            return body;
+    [("a", places[0]), ("b", places[1])].map(|(end, place)| named(&format!("{name}{end}"), &place, text))
+}
+
+/// Declares a place, if it is no centre, and gives its name.
+fn named(name: &str, place: &Place, text: &mut String) -> String {
+    let body = place.body.map_or("ground".to_owned(), |at| format!("b{at}"));
+    let [x, y] = place.local;
+    match place.moves {
+        None if [x, y] == [0.0; 2] => return body,
+        None => {
+            let _ = writeln!(text, "point {name} on {body} = ({x} [m], {y} [m]);");
         }
-        let _ = writeln!(text, "point {name}{end} on {body} = ({x} [m], {y} [m]);");
-        format!("{body}.{name}{end}")
-    })
+        Some((own, [u, v])) => {
+            let _ = writeln!(text, "point {name} on {body} = ({x} [m] + {u}*w{own}, {y} [m] + {v}*w{own});");
+        }
+    }
+    format!("{body}.{name}")
 }
