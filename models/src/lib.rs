@@ -36,6 +36,7 @@
 //! | [`DifferentialDrive`] | 2 | wheels that roll and do not slide, torques as inputs |
 //! | [`CartPole`] | 2 | a sampled controller with an observer |
 //! | [`PathFollower`] | 2 | two clocks, one controller within the other |
+//! | [`ElasticCrank`] | 1 | a rod that bends: a coordinate of its own, particles |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
 //! | [`Chebyshev`] | 0 | nearly straight line |
@@ -63,6 +64,7 @@ pub mod crane_rope;
 pub mod dc_motor;
 pub mod differential_drive;
 pub mod double_pendulum;
+pub mod elastic_crank;
 pub mod engine;
 pub mod excavator;
 pub mod four_bar;
@@ -106,6 +108,7 @@ pub use crane_rope::{CraneRope, CraneRopeParameters};
 pub use dc_motor::{DcMotor, DcMotorInputs, DcMotorParameters};
 pub use differential_drive::{DifferentialDrive, DifferentialDriveInputs, DifferentialDriveParameters};
 pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};
+pub use elastic_crank::{ElasticCrank, ElasticCrankParameters};
 pub use engine::{Engine, EngineParameters};
 pub use excavator::{Excavator, ExcavatorInputs, ExcavatorParameters};
 pub use four_bar::{FourBar, FourBarParameters};

@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 48] = entries! {
+static LIBRARY: [Entry; 49] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -65,6 +65,7 @@ static LIBRARY: [Entry; 48] = entries! {
     "differential-drive", "differential_drive.rs", "DifferentialDrive";
     "cart-pole", "cart_pole.rs", "CartPole";
     "path-follower", "path_follower.rs", "PathFollower";
+    "elastic-crank", "elastic_crank.rs", "ElasticCrank";
     "peaucellier", "peaucellier.rs", "Peaucellier";
     "hart-inversor", "hart_inversor.rs", "HartInversor";
     "chebyshev", "chebyshev.rs", "Chebyshev";
@@ -99,6 +100,8 @@ impl Entry {
             "engine" => Settings { end: 2.0, ..Settings::default() },
             "boom-cylinder" => Settings { end: 8.0, ..Settings::default() },
             "cart-pole" => Settings { end: 5.0, ..Settings::default() },
+            // steps that follow 1277 rad/s, over some turns
+            "elastic-crank" => Settings { step: 20e-6, end: 0.2, ..Settings::default() },
             "path-follower" => Settings { end: 12.0, ..Settings::default() },
             // as far as a page shows a turn
             "chaplygin-sleigh" | "differential-drive" => Settings { end: 4.0, ..Settings::default() },

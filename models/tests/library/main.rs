@@ -14,12 +14,12 @@ mod texts;
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
     AndrewsSqueezer, BlockOnIncline, BoomCylinder, Brake, CamFollower, CartPendulum, CartPole,
-    ChaplyginSleigh, Chebyshev, CraneRope, DcMotor, DifferentialDrive, DoublePendulum, Engine, Excavator,
-    FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann, Metronome,
-    NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40,
-    Pantograph, PathFollower, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke, SliderCrank,
-    SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress, TrammelOfArchimedes, VEngine,
-    WattLinkage,
+    ChaplyginSleigh, Chebyshev, CraneRope, DcMotor, DifferentialDrive, DoublePendulum, ElasticCrank, Engine,
+    Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann,
+    Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10,
+    NPendulum40, Pantograph, PathFollower, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke,
+    SliderCrank, SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress, TrammelOfArchimedes,
+    VEngine, WattLinkage,
 };
 
 use paths::STRIDE;
@@ -170,6 +170,11 @@ library! {
     CartPole: 0.5e-3, 10.0, ["motor"], |p, at, u| (p.motor*u.push + u.disturbance)*at.v.x;
     PathFollower: 0.5e-3, 10.0, ["motors"], |p, at, u| {
         p.motors*(u.left_torque*at.v.alpha + u.right_torque*at.v.beta)
+    };
+    ElasticCrank: 2e-5, 1.0, ["damping_ratio", "speed"], |p, at, _| {
+        let mass = p.density*p.side.powi(2)*p.rod_length;
+        let stiffness = std::f64::consts::PI.powi(4)*p.modulus*p.side.powi(4)/(24.0*p.rod_length.powi(3));
+        -2.0*p.damping_ratio*(stiffness*mass/2.0).sqrt()*at.v.w.powi(2)
     };
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;

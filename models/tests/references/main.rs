@@ -24,6 +24,7 @@ mod four_bars;
 mod friction;
 mod laws;
 mod legs;
+mod particles;
 mod sampled;
 mod sliders;
 mod squeezer;
