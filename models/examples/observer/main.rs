@@ -1,10 +1,11 @@
 //! An observer in the loop: an extended Kalman filter finds angle and speed of a crank from the position of its
-//! slider, and a controller holds the speed that it finds. `models/firmware` runs the same files on a
-//! microcontroller, with the same digits.
+//! slider, and a controller holds the speed that it finds. Behind it a motor with a sampled controller in its declaration.
+//! `models/firmware` runs the same files on a microcontroller, with the same digits.
 //!
 //! `cargo run --release --example observer`
 
 mod filter;
+mod motor;
 mod rig;
 
 use mbs_runtime::Error;
@@ -23,5 +24,8 @@ fn main() -> Result<(), Error> {
         }
         rig.tick()?;
     }
-    Ok(())
+    println!(
+        "time in s, speed in rad/s, current in A, voltage in V and sum in rad of a motor under a sampled controller"
+    );
+    motor::run(|seen| println!("{seen:?}"))
 }

@@ -1,4 +1,4 @@
-//! The rig of `models/examples/observer` on a Cortex-M: the same digits, and how many instructions they take.
+//! The rig and the motor of `models/examples/observer` on a Cortex-M: the same digits, and how many instructions they take.
 //!
 //! `cargo run --release`, with QEMU.
 
@@ -7,6 +7,8 @@
 
 #[path = "../../examples/observer/filter.rs"]
 mod filter;
+#[path = "../../examples/observer/motor.rs"]
+mod motor;
 #[path = "../../examples/observer/rig.rs"]
 mod rig;
 #[path = "../../src/slider_crank_free.rs"]
@@ -48,6 +50,12 @@ fn work(timer: SYST) -> Result<(), Error> {
         }
         rig.tick()?;
     }
+    hprintln!(
+        "time in s, speed in rad/s, current in A, voltage in V and sum in rad of a motor under a sampled controller"
+    );
+    motor::run(|seen| {
+        hprintln!("{:?}", seen);
+    })?;
     let mut clock = Clock::new(timer);
     let mut rig = rig::Rig::new()?;
     let ticks = clock.instructions(TURNS, || rig.tick())?;
