@@ -26,7 +26,7 @@ impl Dense {
     }
 }
 
-/// How bad a position may be to be compared: a random one seldom is worse.
+/// The largest condition number of a position that is compared: a random one seldom has more.
 pub const LARGEST_CONDITION: f64 = 1e7;
 
 /// The elimination solves the dense system. Each of the two is good to

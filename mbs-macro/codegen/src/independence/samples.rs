@@ -226,7 +226,7 @@ fn largest_way(model: &Model, value: &dyn Fn(Symbol) -> f64, mut rows: Vec<(Expr
         }
         let moved = |at: Symbol, by: f64| {
             let value = |symbol: Symbol| value(symbol) + if symbol == at { by } else { 0.0 };
-            model.arena.evaluate(&[row], &value).first().copied().unwrap_or_default()
+            model.arena.evaluate(&[row], &value)[0]
         };
         let is_length = |symbol: &Symbol| match model.meanings.get(symbol.index()) {
             Some(Meaning::Coordinate(at)) => !is_angle(model, *at),

@@ -78,7 +78,7 @@ impl<'a, 'm> Cluster<'a, 'm> {
         clusters.into_iter().map(|(_, cluster)| cluster).collect()
     }
 
-    /// What the particles add to M and Q.
+    /// The terms of all its particles.
     pub fn inertial(&self, gravity: [Expr; 2]) -> Inertial<'a> {
         let (angle, gravity) = (self.frame.angle, self.algebra.vector(gravity));
         let (mass, pull) = (self.mass(), self.sum(|particle| self.pull(particle)).rotated(angle));

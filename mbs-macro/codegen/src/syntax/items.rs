@@ -13,9 +13,10 @@ use super::indices::Indices;
 use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
 use super::words::{
-    block, definition, doc, equals, helped, name, name_before_unit, path, semicolon, usable, with_unit,
+    block, definition, doc, equals, helped, name, name_before_unit, path, properties, semicolon, usable,
+    with_unit,
 };
-use super::{Condition, Coordinate, Declaration, EnergyRole, ItemKind, Load, Property, Role, StartEntry};
+use super::{Condition, Coordinate, Declaration, EnergyRole, ItemKind, Load, Role, StartEntry};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::mechanics::elements::{ELEMENTS, FORCE_BETWEEN, TORQUE_BETWEEN};
@@ -165,16 +166,10 @@ pub(super) fn instance(input: ParseStream<'_>) -> Result<ItemKind> {
         Error::new(error.span(), format!("`:` and an assembly are expected here, as in `{example}`"))
     })?;
     let assembly = self::name(input)?;
-    let mut bindings = Vec::new();
-    if input.parse::<Option<Token![;]>>()?.is_none() {
-        block(input, &example)?;
-        let content;
-        braced!(content in input);
-        while !content.is_empty() {
-            let (name, value) = definition(&content)?;
-            bindings.push(Property { name, value });
-        }
-    }
+    let bindings = match input.parse::<Option<Token![;]>>()? {
+        Some(_) => Vec::new(),
+        None => properties(input, &example)?,
+    };
     Ok(ItemKind::Instance { name, assembly, bindings })
 }
 
@@ -250,14 +245,7 @@ pub(super) fn body(input: ParseStream<'_>) -> Result<ItemKind> {
     parenthesized!(content in input);
     let coordinates = Punctuated::<Coordinate, Token![,]>::parse_terminated_with(&content, coordinate)?;
     let coordinates = coordinates.into_iter().collect();
-    block(input, &format!("body {name} (x, y) {{ mass = 1 [kg]; }}"))?;
-    let content;
-    braced!(content in input);
-    let mut properties = Vec::new();
-    while !content.is_empty() {
-        let (name, value) = definition(&content)?;
-        properties.push(Property { name, value });
-    }
+    let properties = properties(input, &format!("body {name} (x, y) {{ mass = 1 [kg]; }}"))?;
     Ok(ItemKind::Body { name, coordinates, properties })
 }
 

@@ -1,10 +1,10 @@
 //! `coordinate w [mm];`, `particle bob at rod.tip { mass = m; }`: what moves without being a body.
 
 use syn::parse::ParseStream;
-use syn::{Result, Token, braced, token};
+use syn::{Result, Token, token};
 
-use super::words::{block, definition, expect_word, name, name_before_unit, semicolon};
-use super::{ItemKind, Property};
+use super::ItemKind;
+use super::words::{expect_word, name, name_before_unit, properties, semicolon};
 
 /// `coordinate w [mm];`
 pub(super) fn coordinate(input: ParseStream<'_>) -> Result<ItemKind> {
@@ -29,13 +29,6 @@ pub(super) fn particle(input: ParseStream<'_>) -> Result<ItemKind> {
     let example = format!("particle {name} at rod.tip {{ mass = 1 [kg]; }}");
     expect_word(input, "at", &example)?;
     let at = input.parse()?;
-    block(input, &example)?;
-    let content;
-    braced!(content in input);
-    let mut properties = Vec::new();
-    while !content.is_empty() {
-        let (name, value) = definition(&content)?;
-        properties.push(Property { name, value });
-    }
+    let properties = properties(input, &example)?;
     Ok(ItemKind::Particle { name, at, properties })
 }

@@ -5,10 +5,10 @@ use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::spanned::Spanned;
-use syn::{Attribute, Error, Result, Token, token};
+use syn::{Attribute, Error, Result, Token, braced, token};
 
 use super::formula::bracket_after_name;
-use super::{Formula, UnitText};
+use super::{Formula, Property, UnitText};
 use crate::diagnostics::{HELP, WORD_OF_RUST};
 
 /// The text of doc comments; other attributes are refused.
@@ -119,6 +119,19 @@ pub(super) fn definition(input: ParseStream<'_>) -> Result<(Ident, Formula)> {
     let value = input.parse()?;
     semicolon(input)?;
     Ok((name, value))
+}
+
+/// `{ mass = 1 [kg]; inertia = 2 [kg*m^2]; }`
+pub(super) fn properties(input: ParseStream<'_>, example: &str) -> Result<Vec<Property>> {
+    block(input, example)?;
+    let content;
+    braced!(content in input);
+    let mut properties = Vec::new();
+    while !content.is_empty() {
+        let (name, value) = definition(&content)?;
+        properties.push(Property { name, value });
+    }
+    Ok(properties)
 }
 
 /// A name, its unit, and a value where there is one; `needs` says that a unit is missing.
