@@ -7,7 +7,7 @@ use mbs_runtime::{Components, Error, Held, Mechanism, Simulation, State, start};
 use models::{
     NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10, NPendulum40,
 };
-use paths::{Case, Run, through_double_paths};
+use paths::{Case, EXHAUSTIVE, Run, through_double_paths};
 
 use super::near;
 
@@ -97,7 +97,8 @@ fn n_four_bar_is_a_pendulum() -> Result<(), Error> {
     turns_in_time(NFourBar1::declared(), 1.0)?;
     turns_in_time(NFourBar2::declared(), 2.0)?;
     turns_in_time(NFourBar10::declared(), 10.0)?;
-    turns_in_time(NFourBar40::declared(), 40.0)
+    // half a minute
+    if EXHAUSTIVE { turns_in_time(NFourBar40::declared(), 40.0) } else { Ok(()) }
 }
 
 /// ω² and angles of the slowest mode of a hanging chain, for rods of 1 m and 1 kg.

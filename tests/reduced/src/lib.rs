@@ -4,6 +4,6 @@
 mod fused;
 
 pub use fused::{through_double_paths, through_every_path};
-pub use paths::{Case, Instant, Run, Single, bisect};
+pub use paths::{Case, EXHAUSTIVE, Instant, Run, Single, bisect};
 
 include!(concat!(env!("OUT_DIR"), "/library.rs"));

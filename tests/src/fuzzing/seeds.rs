@@ -29,8 +29,8 @@ const SOURCES: &[&str] = &[
     include_str!("../../tests/hygiene.rs"),
     include_str!("../../tests/joints.rs"),
     include_str!("../../tests/profiles.rs"),
-    include_str!("../../tests/references/double_fourbar_a02.rs"),
-    include_str!("../../tests/references/slotted_pendulum_modelica.rs"),
+    include_str!("../../long/tests/references/double_fourbar_a02.rs"),
+    include_str!("../../long/tests/references/slotted_pendulum_modelica.rs"),
 ];
 
 /// The declarations in every `mechanism! { … }` of a file.

@@ -7,7 +7,7 @@
     reason = "a benchmark of declarations that tests share"
 )]
 
-#[path = "../tests/agreement/declarations.rs"]
+#[path = "../../tests/agreement/declarations.rs"]
 mod declarations;
 
 use std::hint::black_box;
