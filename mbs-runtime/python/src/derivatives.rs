@@ -84,7 +84,7 @@ impl Mechanism {
         let start = Start::of(model, settings)?;
         let trials = self.trials()?;
         // unless others are asked for
-        let usual = Tolerances { rtol: 1e-9, atol: 1e-12, ..Tolerances::default() };
+        let usual = Tolerances::relative(1e-9);
         let mut found = Derivatives {
             values: vec![f64::NAN; times.len() * columns.len()],
             derivatives: vec![f64::NAN; times.len() * columns.len() * variables.len()],

@@ -19,6 +19,8 @@ pub struct Attempt<V, Stages> {
     pub accelerations: Stages,
     /// and the position of one, or a correction.
     pub there: V,
+    /// The absolute error that each component may have.
+    pub atol: V,
 }
 
 impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
@@ -40,7 +42,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
     where
         V: AsRef<[D::Real]> + AsMut<[D::Real]>,
     {
-        let Self { velocities, accelerations, there } = self;
+        let Self { velocities, accelerations, there, .. } = self;
         let (dynamics, accelerations) = (of.0, accelerations.as_mut());
         to.t = t_next;
         let slopes = Slopes { velocities: velocities.as_mut(), accelerations: &mut *accelerations };
@@ -79,7 +81,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
     where
         V: AsRef<[T]> + AsMut<[T]>,
     {
-        let [rtol, atol] = [tolerances.rtol, tolerances.atol].map(T::from_f64);
+        let (rtol, atol) = (T::from_f64(tolerances.rtol), self.atol.as_ref());
         let h = to.t - from.t;
         let pairs = [
             (self.velocities.as_ref(), &to.v, &from.q, &to.q),
@@ -93,12 +95,12 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
                 let (last, before, after) = (last.as_ref(), before.as_ref(), after.as_ref());
                 let of_last = T::from_f64(row.weights.get(slopes.len()).copied().unwrap_or(0.0));
                 sums(row, slopes, after.len(), |at, sum| {
-                    let (Some(before), Some(after), Some(last)) =
-                        (before.get(at), after.get(at), last.get(at))
+                    let (Some(before), Some(after), Some(last), Some(atol)) =
+                        (before.get(at), after.get(at), last.get(at), atol.get(at))
                     else {
                         return;
                     };
-                    let allowed = atol + rtol * before.abs().max(after.abs());
+                    let allowed = *atol + rtol * before.abs().max(after.abs());
                     let error = factor * (sum + of_last * *last) / allowed;
                     total = total + error * error;
                 });

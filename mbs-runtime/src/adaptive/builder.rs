@@ -11,7 +11,7 @@ use super::{Adaptive, AdaptiveScheme, Beginning, Control, Dynamics, Effort, Mome
 use crate::equations::Start;
 use crate::vectors::assign;
 use crate::watch::Watch;
-use crate::{Components, Dopri5, Error, Mechanism, Real, State};
+use crate::{Components, Dopri5, Error, Info, Mechanism, Real, State};
 
 /// Given states are checked as those of runs with this step, in s.
 const NOMINAL_STEP: f64 = 1e-3;
@@ -108,12 +108,19 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
         let (states, rates) = (dynamics.states(&q), dynamics.states(&v));
         let moment = Moment { t, a: states.clone(), q: states, v: rates };
         let stages = S::slopes(moment.q.clone());
+        let mut atol = moment.q.clone();
+        tolerances.in_units(dynamics.equations().info(), atol.as_mut());
         let mut run = Adaptive {
             control: Control::new(tolerances.first_step.unwrap_or(0.0)),
             before: moment.clone(),
             next: moment.clone(),
             all: [q, v],
-            attempt: Attempt { there: moment.q.clone(), velocities: stages.clone(), accelerations: stages },
+            attempt: Attempt {
+                there: moment.q.clone(),
+                velocities: stages.clone(),
+                accelerations: stages,
+                atol,
+            },
             between: Between::new(S::between([moment.q.clone(), moment.q.clone()])),
             arrival: moment.clone(),
             now: moment,
@@ -161,7 +168,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     fn first_step(&mut self) -> f64 {
         const SMALLEST: f64 = 1e-6;
         let Self { dynamics, inputs, tolerances, now, next, attempt, estimate, .. } = self;
-        let size = |of: [&D::States; 2]| tolerances.size([&now.q, &now.v], of);
+        let size = |of: [&D::States; 2]| tolerances.size(&attempt.atol, [&now.q, &now.v], of);
         let (of_state, of_slope) = (size([&now.q, &now.v]), size([&now.v, &now.a]));
         let is_still = of_state < 1e-5 || of_slope < 1e-5;
         let first = if is_still { SMALLEST } else { 0.01 * of_state / of_slope };
@@ -181,7 +188,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         assign(of_velocities, &next.v);
         crate::vectors::add_scaled(of_velocities.as_mut(), D::Real::from_f64(-1.0), now.v.as_ref());
         crate::vectors::add_scaled(next.a.as_mut(), D::Real::from_f64(-1.0), now.a.as_ref());
-        let change = tolerances.size([&now.q, &now.v], [of_velocities, &next.a]) / first;
+        let change = tolerances.size(&attempt.atol, [&now.q, &now.v], [&attempt.there, &next.a]) / first;
         let largest = of_slope.max(change);
         let second = if largest < 1e-15 {
             SMALLEST.max(1e-3 * first)
@@ -193,13 +200,21 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 }
 
 impl Tolerances {
+    /// The absolute errors of what is integrated, in SI units.
+    fn in_units<T: Real>(&self, info: &Info, atol: &mut [T]) {
+        for (atol, state) in atol.iter_mut().zip(info.states) {
+            let scale = info.coordinates.get(*state).map_or(1.0, |state| state.scale);
+            *atol = T::from_f64(self.atol * scale);
+        }
+    }
+
     /// The root mean square of vectors, measured by what is allowed at a state.
-    pub(super) fn size<T: Real, V: AsRef<[T]>>(&self, state: [&V; 2], vectors: [&V; 2]) -> f64 {
-        let [rtol, atol] = [self.rtol, self.atol].map(T::from_f64);
+    pub(super) fn size<T: Real, V: AsRef<[T]>>(&self, atol: &V, state: [&V; 2], vectors: [&V; 2]) -> f64 {
+        let rtol = T::from_f64(self.rtol);
         let (mut sum, mut count) = (0.0, 0.0);
         for (state, vector) in state.into_iter().zip(vectors) {
-            for (state, component) in state.as_ref().iter().zip(vector.as_ref()) {
-                let ratio = (*component / (atol + rtol * state.abs())).to_f64();
+            for ((state, component), atol) in state.as_ref().iter().zip(vector.as_ref()).zip(atol.as_ref()) {
+                let ratio = (*component / (*atol + rtol * state.abs())).to_f64();
                 sum += ratio * ratio;
                 count += 1.0;
             }

@@ -12,7 +12,8 @@ use crate::{Error, Real};
 /// atol + rtol · max(|x before|, |x after|)
 /// ```
 ///
-/// for positions and velocities, in SI units and rad; the steps are as long as the root mean
+/// for positions and velocities, in SI units and rad, and for coordinates and states of the mechanism's own in the
+/// units in which they are declared. The steps are as long as the root mean
 /// square of error/allowed permits. The errors of all steps add up, so that the error at the end
 /// of a run is a few times the tolerance, and more where the motion itself amplifies errors.
 ///
@@ -28,7 +29,8 @@ use crate::{Error, Real};
 pub struct Tolerances {
     /// The relative error that a step may add.
     pub rtol: f64,
-    /// The absolute error that a step may add, in m, rad, m/s or rad/s.
+    /// The absolute error that a step may add, in m, rad, m/s or rad/s, or in the unit in which a coordinate or a
+    /// state is declared.
     pub atol: f64,
     /// The longest step in s; infinite for none.
     pub max_step: f64,
@@ -39,13 +41,27 @@ pub struct Tolerances {
 impl Default for Tolerances {
     /// 10⁻⁶ and 10⁻⁹.
     fn default() -> Self {
-        Self { rtol: 1e-6, atol: 1e-9, max_step: f64::INFINITY, first_step: None }
+        Self::relative(1e-6)
     }
 }
 
 impl Tolerances {
     /// The smallest relative error that can be asked for, in roundings.
     const FINEST: f64 = 100.0;
+
+    /// This relative error, and a thousandth of it as the absolute one: where only a relative error is
+    /// asked for, the absolute one does not decide, unless the numbers are small.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_runtime::Tolerances;
+    ///
+    /// assert_eq!(Tolerances::relative(1e-6), Tolerances::default());
+    /// assert_eq!(Tolerances::relative(1e-12).atol, 1e-15);
+    /// ```
+    pub const fn relative(rtol: f64) -> Self {
+        Self { rtol, atol: rtol / 1000.0, max_step: f64::INFINITY, first_step: None }
+    }
 
     /// `Ok` if they can be kept with the scalar `T`.
     ///
@@ -126,6 +142,16 @@ impl Control {
         };
         self.is_again = !is_good;
         self.next = (h * factor).min(LONGEST);
+        is_good
+    }
+
+    /// True if a step of `h` seconds that ends where it is asked to, and not where the control said, is good. If it
+    /// is not, the next one is shorter.
+    pub fn judge_end(&mut self, h: f64, ratio: f64, estimate: &Estimate) -> bool {
+        let is_good = ratio <= 1.0;
+        if !is_good {
+            self.judge(h, ratio, estimate);
+        }
         is_good
     }
 }

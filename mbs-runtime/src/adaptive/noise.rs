@@ -90,7 +90,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         dynamics.acceleration(*t, q, v, inputs, a);
         vectors::zip_map(v.as_mut(), now.v.as_ref(), |there, here| h * (there - here));
         vectors::zip_map(a.as_mut(), now.a.as_ref(), |there, here| h * (there - here));
-        let share = tolerances.size([&now.q, &now.v], [&*v, &*a]);
+        let share = tolerances.size(&attempt.atol, [&now.q, &now.v], [&*v, &*a]);
         share.is_nan() || share > DROWNED
     }
 

@@ -36,7 +36,7 @@ impl fmt::Display for Error {
             Self::Tolerance { name, value, least } => write!(
                 f,
                 "the tolerance {name} is {value:?}, but it has to be finite and at least {least:.1e}; \
-                 the defaults are 1e-6 (rtol) and 1e-9 (atol)"
+                 the defaults are 1e-6 (rtol) and a thousandth of rtol (atol)"
             ),
             Self::NoEstimate { scheme } => write!(
                 f,

@@ -79,9 +79,11 @@ pub enum Doubt {
     Small {
         /// The state.
         state: &'static str,
-        /// Its largest value, in SI units.
+        /// Its unit.
+        unit: &'static str,
+        /// Its largest value, in this unit.
         largest: f64,
-        /// The absolute tolerance of the run, in SI units.
+        /// The absolute tolerance of the run.
         atol: f64,
     },
     /// A quantity was not a number, or infinite.
@@ -141,10 +143,10 @@ impl fmt::Display for Doubt {
                 significant(100.0 * share, 2),
                 digits(*at)
             ),
-            Self::Small { state, largest, atol } => write!(
+            Self::Small { state, unit, largest, atol } => write!(
                 f,
-                "the state `{state}` is at most {largest:.1e} SI units, and the absolute tolerance is {atol:.1e} of \
-                 them: its digits are not to be trusted; give --atol {:.0e}",
+                "the state `{state}` is at most {largest:.1e} {unit}, and the absolute tolerance is {atol:.1e} {unit}: its \
+                 digits are not to be trusted; declare it in a smaller unit, or give --atol {:.0e}",
                 1e-6 * largest
             ),
             Self::NotFinite { name, value, at } => {
@@ -174,9 +176,9 @@ pub(crate) fn small_states<'a>(
         // behind the time and the positions
         let column = columns.get(1 + info.coordinates.len() + at)?;
         let largest = column.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        let largest = Unit::of(quantity).read(largest);
+        let largest = Unit::of(quantity).read(largest) / quantity.scale;
         let is_small = (1e-6 * atol..10.0 * atol).contains(&largest);
-        is_small.then_some(Doubt::Small { state: quantity.name, largest, atol })
+        is_small.then_some(Doubt::Small { state: quantity.name, unit: quantity.unit, largest, atol })
     })
 }
 

@@ -207,9 +207,8 @@ impl RunOptions {
         if rtol.is_none() && atol.is_none() && max_step.is_none() {
             return Ok(None);
         }
-        let defaults = Tolerances::default();
+        let defaults = rtol.map_or_else(Tolerances::default, Tolerances::relative);
         let tolerances = Tolerances {
-            rtol: rtol.unwrap_or(defaults.rtol),
             atol: atol.unwrap_or(defaults.atol),
             max_step: max_step.unwrap_or(defaults.max_step),
             ..defaults

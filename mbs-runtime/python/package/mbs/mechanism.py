@@ -172,14 +172,15 @@ class Mechanism:
     ) -> Run:
         """A run, from the declared start to ``end``.
 
-        ``step``, ``method``, ``feedback``, ``alpha``, ``beta`` are as declared unless they are given, else Heun's method
-        with 0.5 ms and deadbeat feedback. With ``rtol``, ``atol`` or ``max_step`` the steps are as long as their error
-        permits, and ``step`` is the time between two rows; so are runs with declared events, unless the mechanism declares
-        a method with constant steps, and those that end at a condition, ``until="x3 > 200mm"``. ``every`` keeps every so
-        many rows. ``start="declared"`` does not make the start consistent. ``signals`` are inputs that change:
-        ``{"t": times, "force": values}``, straight lines between, or by the words of a table,
-        ``{"t": times, "force": (values, "cubic outside periodic")}``. Coordinates are start values, ``x3=0.2``, as are those
-        in ``state={"der(x3)": 1}``; the other coordinates follow them. ``columns=["x*", "lambda(pin_x)"]`` keeps these.
+        ``step``, ``method``, ``feedback``, ``alpha``, ``beta`` are as declared unless they are given, else Heun's
+        method with 0.5 ms and deadbeat feedback. With ``rtol``, ``atol`` or ``max_step`` the steps are as long as their
+        error permits (``rtol`` is 1e-6 and ``atol`` a thousandth of it unless given), and ``step`` is the time between
+        two rows; so are runs with declared events, unless the mechanism declares a method with constant steps, and
+        those that end at a condition, ``until="x3 > 200mm"``. ``every`` keeps every so many rows. ``start="declared"``
+        does not make the start consistent. ``signals`` are inputs that change: ``{"t": times, "force": values}``,
+        straight lines between, or by the words of a table, ``{"t": times, "force": (values, "cubic outside
+        periodic")}``. Coordinates are start values, ``x3=0.2``, as are those in ``state={"der(x3)": 1}``; the other
+        coordinates follow them. ``columns=["x*", "lambda(pin_x)"]`` keeps these.
 
         Raises ``Error``, and ``EndedEarly`` with the run up to there. What makes its numbers doubtful is a
         ``DoubtWarning``.

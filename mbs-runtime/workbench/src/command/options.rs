@@ -56,7 +56,8 @@ pub(crate) struct Run {
     /// Steps as long as this relative error of a step permits, with projection [default: 1e-6]
     #[arg(long, value_name = "NUMBER")]
     rtol: Option<String>,
-    /// The same for its absolute error, in SI units [default: 1e-9]
+    /// The same for its absolute error, in SI units, or in the unit with which a state or a coordinate is declared
+    /// [default: a thousandth of --rtol]
     #[arg(long, value_name = "NUMBER")]
     atol: Option<String>,
     /// The longest step of a run to a tolerance

