@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 
 use mbs_runtime::{
     Adaptive, AdaptiveScheme, Components, Dop853, Dopri5, Dual, Error, Mechanism, Real, State, Tolerances,
-    mechanism,
+    implicit::Esdirk4, mechanism,
 };
 use tests::random::Random;
 
@@ -284,5 +284,38 @@ fn a_jump_that_holds_is_named() -> Result<(), Error> {
     }
     // −5 m/s² for 0.2 s, then −1 m/s²
     assert!((run(-3.0)? - -1.8).abs() < 1e-6);
+    Ok(())
+}
+
+mechanism! {
+    /// A brake of 40 mm on a long way, and pushes by a smooth table of time.
+    Zone {
+        dof = 2;
+        body cart (x) { mass = 1 [kg]; }
+        force brake on x = if x > 0.68 [m] && x < 0.72 [m] { -40 [N] } else { 0 };
+        body sled (y) { mass = 1 [kg]; }
+        table bump(u) = [(0 [s], 0 [N]), (0.7 [s], 0 [N]), (0.701 [s], 4 [N]), (0.702 [s], 0 [N]), (1 [s], 0 [N])]
+            monotone outside hold;
+        force push on y = bump(t);
+        start { der(x) = 2 [m/s]; }
+    }
+}
+
+/// A zone, and a bump of a smooth table, are met that all stages of a step would pass by. The bump is made of two
+/// cubics with flat ends, so that its impulse is half of its width times its height.
+#[test]
+fn no_zone_is_stepped_over() -> Result<(), Error> {
+    fn speeds<S: AdaptiveScheme>() -> Result<[f64; 2], Error> {
+        let builder =
+            Adaptive::builder(Zone::declared()).scheme::<S>().tolerances(Tolerances::relative(1e-9));
+        let mut run = builder.build()?;
+        run.advance_to(1.0)?;
+        let v = run.state().v;
+        Ok([v.x, v.y])
+    }
+    for [x, y] in [speeds::<Dopri5>()?, speeds::<Dop853>()?, speeds::<Esdirk4>()?] {
+        assert!((x - 0.8_f64.sqrt()).abs() < 1e-7, "{x}");
+        assert!((y - 4e-3).abs() < 1e-9, "{y}");
+    }
     Ok(())
 }

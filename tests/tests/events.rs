@@ -3,7 +3,8 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use mbs_runtime::{
-    Adaptive, Direction, Dop853, Dopri5, Error, Event, Mechanism, Scheme, State, Tolerances, mechanism,
+    Adaptive, AdaptiveScheme, Direction, Dop853, Dopri5, Error, Event, Mechanism, Scheme, State, Tolerances,
+    implicit::Esdirk4, mechanism,
 };
 use tests::swing::{Swing, quarter_period};
 
@@ -312,4 +313,39 @@ fn a_bounce_from_the_ground_is_seen_however_short_it_is() {
             assert!((event.t - expected).abs() < 1e-3 * expected, "{below} {speed}: {event:?} {expected}");
         }
     }
+}
+
+mechanism! {
+    /// A body that is pushed for a moment, and an event in the middle of it.
+    pub Pushed {
+        dof = 1;
+        param width = 20 [ms];
+        body sled (x) { mass = 1 [kg]; }
+        force push on x = 100 [N]*exp(-((t - 0.7 [s])/width)^2);
+        event middle: t = 0.7 [s];
+    }
+}
+
+/// A long step that met the push with no stage was taken, and made again with its end at the event, where one stage
+/// met it: that error was not looked at, and the sled had 9.48 m/s.
+#[test]
+fn a_step_that_ends_at_an_event_meets_the_tolerance() -> Result<(), Error> {
+    fn speed<S: AdaptiveScheme>(width: f64) -> Result<f64, Error> {
+        let mechanism = Pushed::new(PushedParameters { width })?;
+        let builder = Adaptive::builder(mechanism).scheme::<S>().tolerances(Tolerances::relative(1e-8));
+        let mut run = builder.build()?;
+        let mut events = 0;
+        while run.advance_to_event(1.0)?.is_some() {
+            events += 1;
+        }
+        assert_eq!(events, 1);
+        Ok(run.state().v.x)
+    }
+    for width in [0.1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3] {
+        let expected = 100.0 * width * std::f64::consts::PI.sqrt();
+        for found in [speed::<Dopri5>(width)?, speed::<Dop853>(width)?, speed::<Esdirk4>(width)?] {
+            assert!((found / expected - 1.0).abs() < 1e-6, "{width}: {found} for {expected}");
+        }
+    }
+    Ok(())
 }

@@ -142,7 +142,7 @@ impl InputTable {
         }
     }
 
-    /// The first time after `t`, in s, at which an input changes its slope, or is right before or right behind a jump;
+    /// The first time after `t`, in s, at which two pieces of an input meet, or right before or right behind a jump;
     /// infinite if there is none.
     pub fn next_corner<T: Real>(&self, t: T) -> T {
         let next = self.inputs.iter().map(|input| input.next_corner(t));
@@ -177,7 +177,11 @@ impl Input {
                 _ => "they are too large for a finite slope between them",
             });
         };
-        let mut corners = curve.corners();
+        // at the points of a smooth one too, so that nothing between them is stepped over
+        let jumps: Vec<f64> =
+            curve.corners().into_iter().filter_map(|(at, jumps)| jumps.then_some(at)).collect();
+        let points = curve.points().into_iter();
+        let mut corners: Vec<_> = points.map(|at| (at, jumps.contains(&at))).collect();
         if way.outside == Beyond::Refuse {
             // a step ends where there is nothing behind it
             corners.extend(times.last().map(|last| (*last, false)));
@@ -189,7 +193,7 @@ impl Input {
         Ok(Self { place, curve, corners })
     }
 
-    /// The first time behind `t` at which the input bends, or is right before or right behind a jump.
+    /// The first time behind `t` at which two pieces of the input meet, or right before or right behind a jump.
     fn next_corner<T: Real>(&self, t: T) -> T {
         let infinite = T::from_f64(f64::INFINITY);
         let Some((first, _)) = self.corners.first() else { return infinite };

@@ -49,7 +49,8 @@ struct Beginning<T> {
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Looks for the first event in the last step. If there is one, the step ends right behind it,
-    /// and whatever has happened by then is due.
+    /// and whatever has happened by then is due. Where the step that ends there does not meet the tolerance, the run
+    /// is where it began.
     ///
     /// # Errors
     /// [`Error::EndlessEvents`]; the run is then where the step began.
@@ -77,7 +78,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             }
         }
         let first = self.differentiated(first, which, watched);
-        self.end_at(first)?;
+        if !self.end_at(first)? {
+            return Ok(());
+        }
         // what happens is no longer kept from before
         let kept = !happened.all;
         let (judged, turned) = (happened.judged & kept, happened.turned & kept);
@@ -110,9 +113,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 let events = self.dynamics.equations().info().events;
                 let declared = events.get(index).filter(|_| watched.is_declared);
                 let name = declared.map_or("", |event| event.name);
-                self.now = self.before.clone();
-                self.happened = self.happened_before;
-                self.between.begin(false);
+                self.step_back();
                 return Err(Error::EndlessEvents { t: self.now.t.to_f64(), name, index });
             }
         }

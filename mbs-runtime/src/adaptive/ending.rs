@@ -2,28 +2,47 @@
 
 use super::attempt::is_healthy;
 use super::events::Watched;
-use super::{Adaptive, AdaptiveScheme, Dynamics};
+use super::{Adaptive, AdaptiveScheme, Dynamics, Happened, OVER_CORNER};
 use crate::{Error, Real, vectors};
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
-    /// Ends the last step at `t`, which lies in it.
-    pub(super) fn end_at(&mut self, t: D::Real) -> Result<(), Error> {
+    /// Ends the last step at `t`, which lies in it. The value is `false` if the step that ends there does not meet
+    /// the tolerance, though the longer one did: its stages meet a force that those of the other one passed by.
+    /// The run is then where the step began, and its next step is shorter.
+    pub(super) fn end_at(&mut self, t: D::Real) -> Result<bool, Error> {
         // a time with derivatives moves the end even where its value does not
         if t >= self.now.t && D::Real::ORDER == 0 {
-            return Ok(());
+            return Ok(true);
         }
-        let Self { dynamics, inputs, before, now, next, attempt, between, .. } = self;
+        let Self { dynamics, inputs, before, next, attempt, between, estimate, tolerances, .. } = self;
         between.lose_stages();
         let growth = attempt.step::<D, S>((&*dynamics, &*inputs), before, t, next);
         if growth.is_some_and(|growth| is_healthy(growth, next)) {
-            core::mem::swap(now, next);
-            between.begin(true);
-            return Ok(());
+            let ratio = attempt.error(estimate, tolerances, before, next);
+            let h = (t - before.t).to_f64();
+            let shortest = OVER_CORNER * D::Real::EPSILON.to_f64() * t.to_f64().abs();
+            if h > shortest && !self.control.judge_end(h, ratio, estimate) {
+                self.effort.rejected += 1;
+                self.step_back();
+                return Ok(false);
+            }
+            core::mem::swap(&mut self.now, &mut self.next);
+            self.between.begin(true);
+            return Ok(true);
         }
         let start = before.clone();
         self.rewind_to(t.to_f64())?;
         self.before = start;
-        self.solve()
+        self.solve()?;
+        Ok(true)
+    }
+
+    /// Goes back to where the last step began, as if it had not been taken.
+    pub(super) fn step_back(&mut self) {
+        self.now = self.before.clone();
+        self.happened = Happened { due: 0, ..self.happened_before };
+        self.switching.pieces = None;
+        self.between.begin(false);
     }
 
     /// The time of an event with its first derivatives. The watched value g vanishes at it

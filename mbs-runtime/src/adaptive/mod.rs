@@ -5,7 +5,7 @@
 //! * `scheme` has the stages of a step. `attempt` takes it and estimates its error. `control` chooses the
 //!   next length.
 //! * `dense` has the motion within a step. `crossing` looks through it for events, and `ending` ends a step
-//!   at one.
+//!   at one. `switches` looks where laws bend or jump, `passing` at steps over several such places.
 //! * `sampled` makes a `System` of a run. `cause` finds the error that ends one.
 
 mod attempt;
@@ -23,6 +23,7 @@ mod effort;
 mod ending;
 mod events;
 mod noise;
+mod passing;
 mod sampled;
 mod scheme;
 mod switches;

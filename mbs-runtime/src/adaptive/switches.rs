@@ -139,7 +139,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         // rounding decides of which piece a value is that is held
         let mut ends = values.into_iter().zip(known).filter(|(_, (_, rounded))| *rounded == 0);
         let passes = ends.any(|(value, ((switch, piece), _))| switch.knots.piece(value) != piece);
-        if passes { STRICT * ratio } else { ratio }
+        if !passes {
+            return ratio;
+        }
+        let rounded = self.switching.rounded;
+        let left_out = self.left_out(pieces, values, |index| rounded.get(index) == Some(&0));
+        (STRICT * ratio).max(left_out)
     }
 }
 
@@ -152,7 +157,7 @@ fn counted(count: Option<&mut u8>) -> u8 {
 }
 
 /// The values of the switches in a state, with room for all coordinates.
-fn switches_at<D: Dynamics>(
+pub(super) fn switches_at<D: Dynamics>(
     (dynamics, inputs): (&D, &D::Inputs),
     Moment { t, q, v, .. }: &Moment<D::Real, D::States>,
     all: &mut [D::Coordinates; 2],

@@ -49,8 +49,7 @@ pub(crate) fn held(info: &Info) -> Option<String> {
     let names: Vec<String> = info.memories().iter().map(|memory| format!("`{}`", memory.name)).collect();
     let is_held = !names.is_empty() && info.sampling.clocks > 0;
     let names = names.join(", ");
-    is_held
-        .then(|| format!("clocks do not act here: memories hold as the first sample leaves them ({names})"))
+    is_held.then(|| format!("clocks do not act here: memories hold as the start leaves them ({names})"))
 }
 
 /// A run with a constant step that ends beside the time that was asked for.

@@ -49,8 +49,8 @@ pub fn corners(model: &mut Model, equations: &Equations, inputs: &Inputs) -> (Ve
     let is_known = |symbol| !matches!(inputs.of(symbol), Some(Input::Multiplier(_) | Input::Acceleration(_)));
     let (mut corners, mut switches) = (Vec::new(), Vec::new());
     for (node, is_of_time) in of_time.pieces(&model.arena) {
-        let Some((argument, knots)) = knots(&mut model.arena, node).filter(|(_, knots)| !knots.at.is_empty())
-        else {
+        let found = knots(&mut model.arena, node, is_of_time);
+        let Some((argument, knots)) = found.filter(|(_, knots)| !knots.at.is_empty()) else {
             continue;
         };
         let pieces = if is_of_time { alternatives(&mut model.arena, argument, time) } else { vec![argument] };
@@ -72,13 +72,15 @@ fn push<T: PartialEq>(all: &mut Vec<T>, new: T) {
     }
 }
 
-/// The argument of a function of pieces, and where these meet.
-fn knots(arena: &mut Arena, node: Expr) -> Option<(Expr, Knots)> {
+/// The argument of a function of pieces, and where these bend or jump. Of time they are all points of a table: a step
+/// over the points of a smooth one may step over what is between them.
+fn knots(arena: &mut Arena, node: Expr, is_of_time: bool) -> Option<(Expr, Knots)> {
     let zero = || Knots { at: vec![0.0], period: None };
     match *arena.node(node) {
         Node::Spline(spline, _, argument) => {
             let spline = arena.splines().get(spline.index())?;
-            Some((argument, Knots { at: spline.knots(), period: spline.period }))
+            let at = if is_of_time { spline.points() } else { spline.knots() };
+            Some((argument, Knots { at, period: spline.period }))
         }
         Node::Call(function, [x, y]) if function.row().arity == 2 => Some((arena.sub(x, y), zero())),
         Node::Call(_, [x, _]) => Some((x, zero())),

@@ -152,7 +152,22 @@ impl Spline {
         self.corners().into_iter().map(|(at, _)| at).collect()
     }
 
-    /// The same with the word whether the value itself jumps there.
+    /// The [`knots`](Self::knots), and the arguments at which pieces meet smoothly of which one is curved, in ascending
+    /// order; of a periodic one those within a period.
+    pub fn points(&self) -> Vec<f64> {
+        if self.bends.is_some() {
+            return self.knots();
+        }
+        let is_curved = |segment: &Segment| segment.coefficients.iter().skip(2).any(|c| *c != 0.0);
+        let pairs = self.segments.windows(2).filter(|pair| pair.iter().any(is_curved));
+        let mut points: Vec<f64> = pairs.filter_map(|pair| Some(self.origin + pair.last()?.from)).collect();
+        points.extend(self.knots());
+        points.sort_by(f64::total_cmp);
+        points.dedup();
+        points
+    }
+
+    /// The [`knots`](Self::knots) with the word whether the value itself jumps there.
     pub fn corners(&self) -> Vec<(f64, bool)> {
         let jumps = self.jumps().into_iter();
         let jumps = jumps.filter(|(_, jumps)| jumps.iter().any(Option::is_some));

@@ -1,0 +1,117 @@
+//! Steps over several knots at once.
+//!
+//! Of a step that passes one knot the estimate of the error knows both sides. What lies between two knots that one step
+//! passes, such as a narrow zone of a force, may be met by none of its stages.
+
+use super::switches::switches_at;
+use super::{Adaptive, AdaptiveScheme, Dynamics, Moment};
+use crate::corners::MOST_SWITCHES;
+use crate::{Real, vectors};
+
+/// A step that passes more knots is not taken.
+const MOST_PASSED: usize = 4;
+/// The share of a step below which what lies between two knots does not count with implicit schemes.
+const NARROW: f64 = 1e-6;
+/// Halvings of a step, after which the time of a knot is known.
+const HALVINGS: u32 = 30;
+
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
+    /// What a step that was tried leaves out between the knots that it passes, over what is allowed: the change of the
+    /// velocities by the accelerations there, beyond that of the interpolated ones. 0 of a step over one knot. Implicit
+    /// schemes pass one knot a step, since their interpolated states are not those of stiff forces.
+    pub(super) fn left_out(
+        &mut self,
+        pieces: [f64; MOST_SWITCHES],
+        ends: [f64; MOST_SWITCHES],
+        counts: impl Fn(usize) -> bool,
+    ) -> f64 {
+        let switches = self.dynamics.equations().switching();
+        // between two knots there is a piece
+        let passed = |index: usize| match (switches.get(index), pieces.get(index), ends.get(index)) {
+            (Some(switch), Some(piece), Some(end)) if counts(index) => {
+                0.5 * (switch.knots.piece(*end) - piece)
+            }
+            _ => 0.0,
+        };
+        let count: f64 = (0..switches.len()).map(|index| passed(index).abs()).sum();
+        if count < 1.5 {
+            return 0.0;
+        }
+        if count > MOST_PASSED as f64 {
+            return self.halved();
+        }
+        let mut times = [f64::INFINITY; MOST_PASSED + 1];
+        let mut places = times.iter_mut();
+        for (index, switch) in switches.iter().enumerate() {
+            let (mut value, rises) = (self.value_at(index, 0.0), passed(index) > 0.0);
+            for _ in 0..(passed(index).abs() + 0.5) as usize {
+                let (Some(knot), Some(place)) = (switch.knots.ahead(value, rises), places.next()) else {
+                    break;
+                };
+                *place = self.passes(index, knot, rises);
+                // behind it, so that the next one is found
+                value = knot + if rises { f64::EPSILON } else { -f64::EPSILON } * (1.0 + knot.abs());
+            }
+        }
+        times.sort_unstable_by(f64::total_cmp);
+        let pairs = times.windows(2).filter_map(|pair| match pair {
+            [from, to] if to.is_finite() => Some((*from, *to)),
+            _ => None,
+        });
+        pairs.map(|(from, to)| self.surprise(from, to)).fold(0.0, f64::max)
+    }
+
+    /// The error of which the next step is half as long.
+    fn halved(&self) -> f64 {
+        Real::pow(2.0, f64::from(self.estimate.power))
+    }
+
+    /// The state at a share of the step that was tried.
+    fn within(&self, share: f64) -> Moment<D::Real, D::States> {
+        let (from, end) = (&self.now, &self.next);
+        let mut there = end.clone();
+        there.t = from.t + D::Real::from_f64(share) * (end.t - from.t);
+        from.between(None, end, there.t, &mut there.q, &mut there.v);
+        from.acceleration(end, there.t, &mut there.a);
+        there
+    }
+
+    /// The value of a switch at a share of the step.
+    fn value_at(&mut self, index: usize, share: f64) -> f64 {
+        let there = self.within(share);
+        let Self { dynamics, inputs, all, .. } = self;
+        let values = switches_at((&*dynamics, &*inputs), &there, all);
+        values.get(index).copied().unwrap_or(f64::NAN)
+    }
+
+    /// The share of the step at which a value passes a knot.
+    fn passes(&mut self, index: usize, knot: f64, rises: bool) -> f64 {
+        let (mut before, mut behind) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(before, behind);
+            let value = self.value_at(index, middle);
+            let is_behind = if rises { value > knot } else { value < knot };
+            *(if is_behind { &mut behind } else { &mut before }) = middle;
+        }
+        behind
+    }
+
+    /// The change of velocities between two shares of the step by the acceleration in the middle, less the
+    /// interpolated one, over what is allowed.
+    fn surprise(&mut self, from: f64, to: f64) -> f64 {
+        if S::RELAXES {
+            return if to - from > NARROW { self.halved() } else { 0.0 };
+        }
+        let there = self.within(f64::midpoint(from, to));
+        let mut found = there.a.clone();
+        let Self { dynamics, inputs, now, next, attempt, tolerances, .. } = self;
+        dynamics.acceleration(there.t, &there.q, &there.v, inputs, &mut found);
+        let time = D::Real::from_f64(to - from) * (next.t - now.t);
+        vectors::zip_map(found.as_mut(), there.a.as_ref(), |found, expected| time * (found - expected));
+        let rtol = D::Real::from_f64(tolerances.rtol);
+        let parts = found.as_ref().iter().zip(attempt.atol.as_ref()).zip(there.v.as_ref());
+        let shares = parts.map(|((change, atol), v)| (change.abs() / (*atol + rtol * v.abs())).to_f64());
+        // where there is no acceleration, the step is not taken
+        shares.map(|share| if share.is_nan() { f64::INFINITY } else { share }).fold(0.0, f64::max)
+    }
+}
