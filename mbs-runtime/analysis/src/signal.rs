@@ -85,6 +85,28 @@ impl Signal {
         Some(Self { name, variable, dimension })
     }
 
+    /// True for the integral of an own state, on which nothing depends: a linear system does not have it.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_analysis::Signal;
+    /// # use mbs_runtime::{Mechanism, mechanism};
+    /// # mechanism! {
+    /// #     pub Decay {
+    /// #         dof = 0;
+    /// #         state z [1] = 1;
+    /// #         der(z) = -z/(1 [s]);
+    /// #     }
+    /// # }
+    ///
+    /// let info = <Decay as Mechanism>::INFO;
+    /// let integrals: Vec<bool> = Signal::states(info).iter().map(|signal| signal.is_integral(info)).collect();
+    /// assert_eq!(integrals, [true, false]);
+    /// ```
+    pub fn is_integral(&self, info: &Info) -> bool {
+        matches!(self.variable, Variable::Coordinate(at) if info.is_own(at))
+    }
+
     fn all(info: &Info, count: usize, of: impl Fn(usize) -> Variable) -> Vec<Self> {
         (0..count).filter_map(|at| Self::of(info, of(at))).collect()
     }
@@ -175,10 +197,8 @@ impl Signal {
     /// an own state is none: a linear system does not have it.
     pub(crate) fn outputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
         if let Some(names) = names {
-            let is_integral =
-                |signal: &Self| matches!(signal.variable, Variable::Coordinate(at) if info.is_own(at));
             let mut known = Self::observable(info);
-            known.retain(|signal| !is_integral(signal));
+            known.retain(|signal| !signal.is_integral(info));
             return chosen("output", &known, names);
         }
         let declared = Self::all(info, info.outputs.len(), Variable::Output);

@@ -157,7 +157,8 @@ impl<'a> Operating<'a> {
     /// The names that fit some patterns, in their order.
     fn outputs(&self, patterns: &[String]) -> Result<Vec<String>, Error> {
         let info = self.info();
-        let known: Vec<String> = Signal::observable(info).into_iter().map(|y| y.name).collect();
+        let measurable = Signal::observable(info).into_iter().filter(|signal| !signal.is_integral(info));
+        let known: Vec<String> = measurable.map(|signal| signal.name).collect();
         let mut found: Vec<String> = Vec::new();
         for pattern in patterns {
             let mut fitting = known.iter().filter(|name| names::fits(pattern, name)).peekable();

@@ -8,6 +8,7 @@ use super::simulate::{Request, recorded};
 use super::{json, page};
 use crate::console::{Warnings, complain};
 use crate::figure::{SERIES_COLOURS, Save};
+use crate::signals::Signals;
 use crate::{Column, Error, Recording, Settings, Table, Unit, quantity, say, write_csv};
 
 /// The value that differs.
@@ -32,6 +33,9 @@ impl Comparison {
         let refused = |reason: String| Error::Name { name: name.to_owned(), reason };
         if settings.parameters.iter().chain(&settings.inputs).any(|(other, _)| other == name) {
             return Err(refused("it is set as well as compared".into()));
+        }
+        if settings.signals.iter().flat_map(Signals::names).any(|other| other == name) {
+            return Err(refused("it is given over time as well as compared".into()));
         }
         if values.len() > SERIES_COLOURS.len() {
             let most = SERIES_COLOURS.len();

@@ -103,6 +103,13 @@ fn options_that_contradict_each_other() {
     refuses("sweep slider-crank --param l1=50..60:2 --set l1=70", &["`l1`", "set with --set and swept"]);
     refuses("sweep slider-crank --param l1=50..60:2 --output x3 --output x3", &["`x3`", "named twice"]);
     refuses("simulate slider-crank --compare l1=50,60 --set l1=70", &["`l1`", "set as well as compared"]);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("torque.csv");
+    std::fs::write(&file, "t,crank_torque [N*m]\n0,1\n1,1\n").unwrap();
+    refuses(
+        &format!("simulate slider-crank-free --compare crank_torque=1,2 --input @{}", file.display()),
+        &["`crank_torque`", "given over time as well as compared"],
+    );
     refuses("simulate slider-crank --compare l1=1,2,3,4,5,6,7,8", &["7 values", "sweep"]);
     refuses("simulate slider-crank --compare l1=50,60 --report a.html", &["--report", "cannot be used"]);
     refuses("simulate slider-crank --columns z*", &["no column `z*`", "theta1"]);
