@@ -301,7 +301,7 @@ mechanism! {
     }
 }
 
-/// A zone, and a bump of a smooth table, are met that all stages of a step would pass by. The bump is made of two
+/// No stage of a long step meets a short zone, or a bump of a smooth table. The run meets both. The bump is made of two
 /// cubics with flat ends, so that its impulse is half of its width times its height.
 #[test]
 fn no_zone_is_stepped_over() -> Result<(), Error> {

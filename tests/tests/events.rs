@@ -326,8 +326,8 @@ mechanism! {
     }
 }
 
-/// A long step that met the push with no stage was taken, and made again with its end at the event, where one stage
-/// met it: that error was not looked at, and the sled had 9.48 m/s.
+/// No stage of a long step met the push, and the step was taken. It was made again with its end at the event, where one
+/// stage met the push. The error of that step was not looked at, and the sled had 9.48 m/s.
 #[test]
 fn a_step_that_ends_at_an_event_meets_the_tolerance() -> Result<(), Error> {
     fn speed<S: AdaptiveScheme>(width: f64) -> Result<f64, Error> {

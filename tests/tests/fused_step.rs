@@ -133,7 +133,7 @@ fn check<M: Mechanism>(mechanism: M, inputs: M::Inputs) {
     }
 }
 
-/// Does something with room for the results of all instructions, which code that is not optimised holds at once.
+/// Runs a test on a stack for the results of all instructions. Code that is not optimised holds them at once.
 fn with_a_large_stack(test: fn()) {
     let thread = thread::Builder::new().stack_size(64 << 20).spawn(test).expect("a thread");
     thread.join().expect("the test");

@@ -200,7 +200,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 }
 
 impl Tolerances {
-    /// The absolute errors of what is integrated, in SI units.
+    /// Writes the absolute errors of all integrated components, in SI units.
     fn in_units<T: Real>(&self, info: &Info, atol: &mut [T]) {
         for (atol, state) in atol.iter_mut().zip(info.states) {
             let scale = info.coordinates.get(*state).map_or(1.0, |state| state.scale);

@@ -49,8 +49,7 @@ impl Tolerances {
     /// The smallest relative error that can be asked for, in roundings.
     const FINEST: f64 = 100.0;
 
-    /// This relative error, and a thousandth of it as the absolute one: where only a relative error is
-    /// asked for, the absolute one does not decide, unless the numbers are small.
+    /// This relative error, and a thousandth of it as the absolute error, which then decides for small numbers only.
     ///
     /// # Example
     /// ```
@@ -142,16 +141,6 @@ impl Control {
         };
         self.is_again = !is_good;
         self.next = (h * factor).min(LONGEST);
-        is_good
-    }
-
-    /// True if a step of `h` seconds that ends where it is asked to, and not where the control said, is good. If it
-    /// is not, the next one is shorter.
-    pub fn judge_end(&mut self, h: f64, ratio: f64, estimate: &Estimate) -> bool {
-        let is_good = ratio <= 1.0;
-        if !is_good {
-            self.judge(h, ratio, estimate);
-        }
         is_good
     }
 }

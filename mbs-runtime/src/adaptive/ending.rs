@@ -6,9 +6,9 @@ use super::{Adaptive, AdaptiveScheme, Dynamics, Happened, OVER_CORNER};
 use crate::{Error, Real, vectors};
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
-    /// Ends the last step at `t`, which lies in it. The value is `false` if the step that ends there does not meet
-    /// the tolerance, though the longer one did: its stages meet a force that those of the other one passed by.
-    /// The run is then where the step began, and its next step is shorter.
+    /// Ends the last step at `t`, which lies in it; true if that step meets the tolerance. It may not, though the
+    /// longer one did, if one of its stages meets a force that no stage of the longer one has met. Then the run goes
+    /// back to where the step began, and its next step is shorter.
     pub(super) fn end_at(&mut self, t: D::Real) -> Result<bool, Error> {
         // a time with derivatives moves the end even where its value does not
         if t >= self.now.t && D::Real::ORDER == 0 {
@@ -21,7 +21,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             let ratio = attempt.error(estimate, tolerances, before, next);
             let h = (t - before.t).to_f64();
             let shortest = OVER_CORNER * D::Real::EPSILON.to_f64() * t.to_f64().abs();
-            if h > shortest && !self.control.judge_end(h, ratio, estimate) {
+            let is_good = ratio <= 1.0 || h <= shortest;
+            if !is_good {
+                self.control.judge(h, ratio, estimate);
                 self.effort.rejected += 1;
                 self.step_back();
                 return Ok(false);

@@ -1,7 +1,7 @@
 //! Steps over several knots at once.
 //!
-//! Of a step that passes one knot the estimate of the error knows both sides. What lies between two knots that one step
-//! passes, such as a narrow zone of a force, may be met by none of its stages.
+//! The estimate of the error knows both sides of a knot that a step passes. Between two knots lies a piece, such as a
+//! narrow zone of a force, that no stage of the step may have met.
 
 use super::switches::switches_at;
 use super::{Adaptive, AdaptiveScheme, Dynamics, Moment};
@@ -16,9 +16,9 @@ const NARROW: f64 = 1e-6;
 const HALVINGS: u32 = 30;
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
-    /// What a step that was tried leaves out between the knots that it passes, over what is allowed: the change of the
-    /// velocities by the accelerations there, beyond that of the interpolated ones. 0 of a step over one knot. Implicit
-    /// schemes pass one knot a step, since their interpolated states are not those of stiff forces.
+    /// The change of velocities that a tried step leaves out between the knots that it passes, over the allowed error.
+    /// Accelerations there are compared with interpolated ones. A step over one knot leaves nothing out. Implicit
+    /// schemes pass one knot a step, because interpolated states would excite stiff forces.
     pub(super) fn left_out(
         &mut self,
         pieces: [f64; MOST_SWITCHES],
@@ -43,8 +43,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let mut times = [f64::INFINITY; MOST_PASSED + 1];
         let mut places = times.iter_mut();
         for (index, switch) in switches.iter().enumerate() {
-            let (mut value, rises) = (self.value_at(index, 0.0), passed(index) > 0.0);
-            for _ in 0..(passed(index).abs() + 0.5) as usize {
+            let (count, rises) = ((passed(index).abs() + 0.5) as usize, passed(index) > 0.0);
+            if count == 0 {
+                continue;
+            }
+            let mut value = self.value_at(index, 0.0);
+            for _ in 0..count {
                 let (Some(knot), Some(place)) = (switch.knots.ahead(value, rises), places.next()) else {
                     break;
                 };
@@ -61,7 +65,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         pairs.map(|(from, to)| self.surprise(from, to)).fold(0.0, f64::max)
     }
 
-    /// The error of which the next step is half as long.
+    /// The error after which the next step is half as long.
     fn halved(&self) -> f64 {
         Real::pow(2.0, f64::from(self.estimate.power))
     }

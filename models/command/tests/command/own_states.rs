@@ -93,7 +93,7 @@ fn an_equilibrium_begins_where_states_do() {
     }
 }
 
-/// All that can be measured: the integral of a state, of which nothing depends, is a column of runs alone.
+/// The integral of a state is a column of runs alone: a linear system does not have it.
 #[test]
 fn all_outputs_of_a_mechanism_with_a_state_are_linearized() {
     let folder = tempfile::tempdir().unwrap();
