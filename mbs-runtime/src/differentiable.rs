@@ -105,7 +105,7 @@ impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
         Equations::projection(t: f64, q: &[f64], violation: &[f64], correction: &mut [f64]) -> f64;
         Equations::worst_pivot(t: f64, q: &[f64]) -> Option<(usize, f64)>;
         Equations::worst_start_pivot(t: f64, q: &[f64]) -> Option<(usize, f64)>;
-        Equations::next_corner(t: f64) -> f64;
+        Equations::next_corner(t: f64, inputs: &[f64]) -> f64;
         Equations::switching() -> &'static [Switch];
         Equations::switches(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
         Equations::clock(clock: usize) -> [f64; 2];

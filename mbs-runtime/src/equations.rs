@@ -98,7 +98,7 @@ pub trait Equations<T: Real> {
     fn worst_start_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)>;
 
     /// The first time behind `t` at which something bends or jumps; see [`Mechanism::next_corner`].
-    fn next_corner(&self, _t: T) -> T {
+    fn next_corner(&self, _t: T, _inputs: &[T]) -> T {
         T::from_f64(f64::INFINITY)
     }
 
@@ -128,8 +128,8 @@ pub trait Equations<T: Real> {
 }
 
 impl<M: Mechanism> Equations<M::Real> for M {
-    fn next_corner(&self, t: M::Real) -> M::Real {
-        Mechanism::next_corner(self, t)
+    fn next_corner(&self, t: M::Real, inputs: &[M::Real]) -> M::Real {
+        Mechanism::next_corner(self, t, &read(inputs))
     }
 
     fn switching(&self) -> &'static [Switch] {

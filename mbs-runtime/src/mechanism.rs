@@ -325,8 +325,8 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     fn potential_energy(&self, at: &State<Self::Coordinates>) -> Self::Real;
 
     /// The first time behind `t` at which forces, constraints or events bend or jump because time passes a point of
-    /// a table or the end of a piece, such as `if t < 1 [s]`. Infinite where there is none.
-    fn next_corner(&self, _t: Self::Real) -> Self::Real {
+    /// a table or the end of a piece, such as `if t < delay`, with the inputs as they are. Infinite where there is none.
+    fn next_corner(&self, _t: Self::Real, _inputs: &Self::Inputs) -> Self::Real {
         Self::Real::from_f64(f64::INFINITY)
     }
 

@@ -319,3 +319,42 @@ fn no_zone_is_stepped_over() -> Result<(), Error> {
     }
     Ok(())
 }
+
+mechanism! {
+    /// Pushes of 0.1 ms whose delays are known when the run has begun.
+    Delayed {
+        dof = 3;
+        input delay [s] = 0.6;
+        memory begin [s] = 0;
+        every 10 [s] { set begin = 0.3 [s]; }
+        table pulse(u) = [(0 [s], 0 [N]), (0.1 [s], 100 [N]), (0.1001 [s], 0 [N])] step outside hold;
+        body first (x1) { mass = 1 [kg]; }
+        body second (x2) { mass = 1 [kg]; }
+        body third (x3) { mass = 1 [kg]; }
+        force of_memory on x1 = pulse(t - begin);
+        force of_input on x2 = if t > delay && t < delay + 0.1 [ms] { 100 [N] } else { 0 };
+        force of_both on x3 = pulse(max(t - delay, begin - t));
+    }
+}
+
+/// What is delayed by an input or a memory is a function of time until it is set again. Each push gives F T = 0.01 m/s,
+/// and the last one two: both before and behind the delays.
+#[test]
+fn no_pulse_behind_a_delay_is_stepped_over() -> Result<(), Error> {
+    let mut run = Adaptive::builder(Delayed::declared()).tolerances(Tolerances::relative(1e-6)).build()?;
+    run.advance_to(0.65)?;
+    let State { v, .. } = run.state();
+    for (found, expected) in v.into_array().into_iter().zip([0.01, 0.01, 0.01]) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
+    let count = run.effort().steps;
+    assert!(count < 60, "{count} steps");
+    // the input is set anew: its push comes again
+    run.inputs_mut().delay = 0.8;
+    run.advance_to(1.0)?;
+    let State { v, .. } = run.state();
+    for (found, expected) in v.into_array().into_iter().zip([0.01, 0.02, 0.02]) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
+    Ok(())
+}

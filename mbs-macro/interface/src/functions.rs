@@ -183,7 +183,7 @@ functions! {
     /// The values whose changes of sign are declared as events.
     Events = "events"(Time, Positions, Velocities, Inputs) -> [result: Events], [Tangent];
     /// The rate a and the offset b of values a t + b at whose knots forces, constraints or events bend or jump.
-    Corners = "corners"() -> [result: Corners], [Adaptive, Whole];
+    Corners = "corners"(Inputs) -> [result: Corners], [Adaptive, Whole];
     /// The values at whose knots forces, constraints or events bend or jump, beside those of time alone.
     Switches = "switches"(Time, Positions, Velocities, Inputs) -> [result: Switches], [Adaptive, Whole];
     /// The period and the offset of every clock in s.

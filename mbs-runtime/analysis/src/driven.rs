@@ -137,8 +137,9 @@ impl<D: Dynamics> Dynamics for Driven<D> {
         inputs
     }
 
-    fn next_corner(&self, t: D::Real) -> D::Real {
-        let (own, others) = (self.table.next_corner(t), self.dynamics.next_corner(t));
+    fn next_corner(&self, t: D::Real, inputs: &D::Inputs) -> D::Real {
+        let present = self.inputs_at(t, inputs);
+        let (own, others) = (self.table.next_corner(t), self.dynamics.next_corner(t, &present));
         if own < others { own } else { others }
     }
 

@@ -104,13 +104,14 @@ impl<T: Real> Equations<T> for Live<T> {
         self.call(FunctionId::Switches, &given, [&mut values[..count]]);
     }
 
-    fn next_corner(&self, t: T) -> T {
+    fn next_corner(&self, t: T, inputs: &[T]) -> T {
         let corners = self.programs().tables.corners;
         if corners.is_empty() {
             return T::from_f64(f64::INFINITY);
         }
         let mut lines = vec![T::ZERO; 2 * corners.len()];
-        self.call(FunctionId::Corners, &position(t, &[]), [&mut lines]);
+        let given = Arguments { inputs: single(inputs), ..Arguments::default() };
+        self.call(FunctionId::Corners, &given, [&mut lines]);
         next_corner(t, lines.as_chunks().0, corners)
     }
 

@@ -12,7 +12,7 @@ use crate::samples::{is_sample, next_sample, sample_at};
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// The first time behind the present one at which a step ends: at a corner of the accelerations, or at a sample.
     pub(super) fn next_corner(&self) -> D::Real {
-        let corner = self.dynamics.next_corner(self.now.t);
+        let corner = self.dynamics.next_corner(self.now.t, &self.inputs);
         let sample = next_sample(self.dynamics.equations(), self.now.t, self.sampled);
         if sample < corner { sample } else { corner }
     }

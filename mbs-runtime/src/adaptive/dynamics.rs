@@ -70,8 +70,9 @@ pub trait Dynamics: Clone + Send {
 
     /// The first time behind `t` at which the accelerations have a corner, such as inputs of straight
     /// lines have between two of them; a step ends there. Infinite where there is none.
-    fn next_corner(&self, t: Self::Real) -> Self::Real {
-        self.equations().next_corner(t)
+    fn next_corner(&self, t: Self::Real, inputs: &Self::Inputs) -> Self::Real {
+        let mut present = self.inputs_at(t, inputs);
+        self.with_inputs(&mut present, |inputs| self.equations().next_corner(t, inputs))
     }
 
     /// Writes the values whose changes of sign are the declared events.

@@ -2,8 +2,11 @@
 //!
 //! A run to a tolerance ends a step there. Steps that grow while nothing happens would go over a short pulse. Values of
 //! the motion that pass such a place are switches: a run looks at them between its steps.
+//!
+//! A delay that is an input or a memory is known as a parameter is, until it is set again. Since inputs may vary during
+//! a step, what is delayed by one is a switch as well.
 
-use mbs_symbolic::{Arena, Expr, Function, Node, Pieces, Stage};
+use mbs_symbolic::{Arena, Expr, Function, Node, Pieces, Stage, Symbol};
 use rustc_hash::FxHashMap as HashMap;
 
 use crate::derive::Equations;
@@ -24,7 +27,7 @@ pub struct Knots {
     pub period: Option<f64>,
 }
 
-/// A value a t + b that has its knots where time passes them.
+/// A value a t + b that has its knots where time passes them; a and b depend on parameters and inputs.
 #[derive(Clone, PartialEq)]
 pub struct Corner {
     pub rate: Expr,
@@ -44,21 +47,23 @@ pub fn corners(model: &mut Model, equations: &Equations, inputs: &Inputs) -> (Ve
     let declared = model.constraints.iter().map(|constraint| constraint.declared());
     let events = model.events.iter().map(|event| event.value);
     let roots: Vec<Expr> = declared.chain(equations.total_forces.iter().copied()).chain(events).collect();
-    let time = model.arena.variable(model.time);
-    let of_time = OfTime::new(&model.arena, &roots, time);
-    let is_known = |symbol| !matches!(inputs.of(symbol), Some(Input::Multiplier(_) | Input::Acceleration(_)));
+    let first_memory = model.inputs.len().saturating_sub(model.memories);
+    let looked_at = Looked { inputs, time: model.time, first_memory };
+    let depends = looked_at.depends(&model.arena, &roots);
     let (mut corners, mut switches) = (Vec::new(), Vec::new());
-    for (node, is_of_time) in of_time.pieces(&model.arena) {
+    for (node, on) in pieces(&model.arena, &roots, &depends) {
+        let is_of_time = on.time && !on.motion;
         let found = knots(&mut model.arena, node, is_of_time);
         let Some((argument, knots)) = found.filter(|(_, knots)| !knots.at.is_empty()) else {
             continue;
         };
-        let pieces = if is_of_time { alternatives(&mut model.arena, argument, time) } else { vec![argument] };
-        for piece in pieces {
-            let line = affine(&mut model.arena, piece, model.time, time).filter(|_| is_of_time);
+        let alternatives = if is_of_time { alternatives(&mut model.arena, argument) } else { vec![argument] };
+        for piece in alternatives {
+            let line = looked_at.affine(&mut model.arena, piece).filter(|_| is_of_time);
             if let Some([rate, offset]) = line {
                 push(&mut corners, Corner { rate, offset, knots: knots.clone() });
-            } else if switches.len() < MOST && model.arena.symbols_in(argument).into_iter().all(is_known) {
+            }
+            if (line.is_none() || on.inputs) && looked_at.is_known(&model.arena, argument) {
                 push(&mut switches, Switch { value: argument, knots: knots.clone() });
             }
         }
@@ -88,38 +93,90 @@ fn knots(arena: &mut Arena, node: Expr, is_of_time: bool) -> Option<(Expr, Knots
     }
 }
 
-/// Of expressions, whether they depend on time, and on no other variable.
-struct OfTime(Vec<Expr>, HashMap<Expr, [bool; 2]>);
+/// The variables on which an expression depends.
+#[derive(Clone, Copy, Default)]
+struct Depends {
+    time: bool,
+    /// Inputs, which may vary during a step.
+    inputs: bool,
+    /// Memories, which do not.
+    memories: bool,
+    /// Anything else: what a run computes.
+    motion: bool,
+}
 
-impl OfTime {
-    fn new(arena: &Arena, roots: &[Expr], time: Expr) -> Self {
-        let all = arena.reachable(roots);
-        let mut depends: HashMap<Expr, [bool; 2]> = HashMap::default();
-        for &node in &all {
-            let own = match arena.node(node) {
-                Node::Symbol(_) if node == time => [true, false],
-                Node::Symbol(_) => [false, arena.stage(node) == Stage::Variable],
+impl Depends {
+    fn or(self, other: Self) -> Self {
+        Self {
+            time: self.time | other.time,
+            inputs: self.inputs | other.inputs,
+            memories: self.memories | other.memories,
+            motion: self.motion | other.motion,
+        }
+    }
+}
+
+/// The meanings of variables, as steps see them.
+struct Looked<'a> {
+    inputs: &'a Inputs,
+    time: Symbol,
+    first_memory: usize,
+}
+
+impl Looked<'_> {
+    /// The variables on which expressions depend.
+    fn depends(&self, arena: &Arena, roots: &[Expr]) -> HashMap<Expr, Depends> {
+        let mut depends: HashMap<Expr, Depends> = HashMap::default();
+        for node in arena.reachable(roots) {
+            let on = match *arena.node(node) {
+                Node::Symbol(symbol) => self.symbol(symbol, arena.stage(node)),
                 _ => arena
                     .operands(node)
                     .iter()
                     .filter_map(|operand| depends.get(operand))
-                    .fold([false; 2], |[of_time, of_others], [time, others]| {
-                        [of_time | time, of_others | others]
-                    }),
+                    .fold(Depends::default(), |all, on| all.or(*on)),
             };
-            depends.insert(node, own);
+            depends.insert(node, on);
         }
-        Self(all, depends)
+        depends
     }
 
-    /// The nodes that have pieces and vary, each with whether it depends on time alone.
-    fn pieces(&self, arena: &Arena) -> Vec<(Expr, bool)> {
-        let varies = |node: Expr| match self.1.get(&node)? {
-            [false, false] => None,
-            [is_of_time, is_of_others] => Some((node, *is_of_time && !is_of_others)),
-        };
-        self.0.iter().copied().filter(|node| has_pieces(arena, *node)).filter_map(varies).collect()
+    fn symbol(&self, symbol: Symbol, stage: Stage) -> Depends {
+        let none = Depends::default();
+        match self.inputs.of(symbol) {
+            Some(Input::Time) => Depends { time: true, ..none },
+            Some(Input::Input(index)) if index < self.first_memory => Depends { inputs: true, ..none },
+            Some(Input::Input(_)) => Depends { memories: true, ..none },
+            _ => Depends { motion: stage == Stage::Variable, ..none },
+        }
     }
+
+    /// True if a value is one between steps: λ and q̈ are not.
+    fn is_known(&self, arena: &Arena, expr: Expr) -> bool {
+        let is_known =
+            |symbol| !matches!(self.inputs.of(symbol), Some(Input::Multiplier(_) | Input::Acceleration(_)));
+        arena.symbols_in(expr).into_iter().all(is_known)
+    }
+
+    /// a and b of an expression a t + b, if it is one whose a is not 0.
+    fn affine(&self, arena: &mut Arena, expr: Expr) -> Option<[Expr; 2]> {
+        let rate = arena.partial(expr, self.time);
+        let zero = arena.zero();
+        let offset = arena.substitute(expr, &HashMap::from_iter([(self.time, zero)]));
+        let depends = self.depends(arena, &[expr, rate, offset]);
+        let is_held = |expr| depends.get(&expr).is_some_and(|on| !on.time && !on.motion);
+        let is_line = pieces(arena, &[expr], &depends).iter().all(|(_, on)| !on.time);
+        (is_held(rate) && is_held(offset) && !arena.is_zero(rate) && is_line).then_some([rate, offset])
+    }
+}
+
+/// The functions of pieces that vary.
+fn pieces(arena: &Arena, roots: &[Expr], depends: &HashMap<Expr, Depends>) -> Vec<(Expr, Depends)> {
+    let varies = |node| {
+        let on = *depends.get(&node)?;
+        (on.time || on.inputs || on.memories || on.motion).then_some((node, on))
+    };
+    arena.reachable(roots).into_iter().filter(|node| has_pieces(arena, *node)).filter_map(varies).collect()
 }
 
 fn has_pieces(arena: &Arena, node: Expr) -> bool {
@@ -131,19 +188,16 @@ fn has_pieces(arena: &Arena, node: Expr) -> bool {
 }
 
 /// An expression with each piece of what it is made of: x and y of max(x, y).
-fn alternatives(arena: &mut Arena, expr: Expr, time: Expr) -> Vec<Expr> {
+fn alternatives(arena: &mut Arena, expr: Expr) -> Vec<Expr> {
     let (mut open, mut found) = (vec![expr], Vec::new());
     while let Some(next) = open.pop() {
-        let piece =
-            OfTime::new(arena, &[next], time).0.into_iter().find_map(|node| match *arena.node(node) {
-                Node::Call(function @ (Function::Min | Function::Max), [x, y]) => {
-                    Some((node, function, [x, y]))
-                }
-                Node::Call(function @ (Function::Abs | Function::Gate), [x, y]) => {
-                    Some((node, function, [x, y]))
-                }
-                _ => None,
-            });
+        let piece = arena.reachable(&[next]).into_iter().find_map(|node| match *arena.node(node) {
+            Node::Call(
+                function @ (Function::Min | Function::Max | Function::Abs | Function::Gate),
+                [x, y],
+            ) => Some((node, function, [x, y])),
+            _ => None,
+        });
         let Some((node, function, [x, y])) = piece.filter(|_| open.len() + found.len() < MOST_PIECES) else {
             found.push(next);
             continue;
@@ -156,15 +210,4 @@ fn alternatives(arena: &mut Arena, expr: Expr, time: Expr) -> Vec<Expr> {
         open.extend(others.map(|other| arena.replace(next, node, other)));
     }
     found
-}
-
-/// a and b of an expression a t + b, if it is one whose a is not 0.
-fn affine(arena: &mut Arena, expr: Expr, symbol: mbs_symbolic::Symbol, time: Expr) -> Option<[Expr; 2]> {
-    let rate = arena.partial(expr, symbol);
-    let zero = arena.zero();
-    let offset = arena.substitute(expr, &HashMap::from_iter([(symbol, zero)]));
-    let is_known = |expr: Expr| arena.stage(expr) != Stage::Variable;
-    let of_time = OfTime::new(arena, &[expr], time);
-    (is_known(rate) && is_known(offset) && !arena.is_zero(rate) && of_time.pieces(arena).is_empty())
-        .then_some([rate, offset])
 }

@@ -43,14 +43,14 @@ pub fn next_corner(compiled: &Compiled, names: &Names) -> TokenStream {
     if compiled.corners.is_empty() {
         return TokenStream::new();
     }
-    let runtime = &names.runtime;
+    let (runtime, inputs) = (&names.runtime, &names.inputs.of_t);
     let body = body(compiled, names, FunctionId::Corners, &Access::of_position());
     let (statements, values) = (&body.statements, body.array(0..2 * compiled.corners.len()));
     let (values_count, count) = (2 * compiled.corners.len(), compiled.corners.len());
     let [values_count, count] = [values_count, count].map(Literal::usize_unsuffixed);
     let knots = compiled.corners.iter().map(|it| knots(it, names));
     quote! {
-        fn next_corner(&self, t: T) -> T {
+        fn next_corner(&self, t: T, inputs: &#inputs) -> T {
             const KNOTS: [#runtime::Knots; #count] = [#(#knots),*];
             #statements
             let lines: [T; #values_count] = #values;
