@@ -51,7 +51,12 @@ pub(crate) fn stage_error<T: Real>(
     equations.complete(states, q, v);
     let solution = Solution { t, q, value: acceleration, growth, info, pivots: info.pivots };
     let error = solution.cause(limit, equations.worst_pivot(t, q), |at| info.state_name(at));
-    let undefined = || check_defined(t, "the acceleration of", acceleration, |at| info.state_name(at)).err();
+    let undefined = || {
+        let is_own = |at: usize| info.states.get(at).is_some_and(|&at| info.is_own(at));
+        let is_of_own = vectors::first_non_finite(acceleration).is_some_and(|(at, _)| is_own(at));
+        let what = if is_of_own { "the rate of" } else { "the acceleration of" };
+        check_defined(t, what, acceleration, |at| info.state_name(at)).err()
+    };
     match error {
         // no motion that runs away, but a force without a value, such as the root of a negative number
         Error::NonFinite { .. } if is_moderate(states) => undefined().or(Some(error)),

@@ -36,8 +36,8 @@ impl Grid {
                 let mut set = info.sampling.samples.iter().filter(|[of, _]| *of == clock);
                 let memory = set.next().and_then(|[_, memory]| info.inputs.get(*memory));
                 let memory = memory.map_or("", |memory| memory.name);
-                let better =
-                    self.fitted(&[[period, offset]], T::EPSILON.to_f64()).map_or(0.0, |grid| grid.step);
+                let all = (0..info.sampling.clocks).map(|clock| equations.clock(clock).map(Real::to_f64));
+                let better = self.fitted(all, T::EPSILON.to_f64()).map_or(0.0, |grid| grid.step);
                 let Self { start, step } = *self;
                 return Err(Error::Period { memory, period, offset, start, step, better });
             }
@@ -58,13 +58,13 @@ impl Grid {
 
     /// The same start with the longest steps that are no longer and lead to the samples of clocks, given by their
     /// periods and offsets; nothing if none of many does.
-    pub fn fitted(&self, clocks: &[[f64; 2]], epsilon: f64) -> Option<Self> {
-        let shortest = clocks.iter().fold(f64::INFINITY, |shortest, [period, _]| shortest.min(*period));
+    pub fn fitted(&self, clocks: impl Iterator<Item = [f64; 2]> + Clone, epsilon: f64) -> Option<Self> {
+        let shortest = clocks.clone().fold(f64::INFINITY, |shortest, [period, _]| shortest.min(period));
         let least = floor(shortest / self.step - ROUNDINGS * epsilon * shortest / self.step).max(0.0) + 1.0;
         let grids = (0..MOST_PARTS).map(|more| Self { step: shortest / (least + f64::from(more)), ..*self });
         grids
             .into_iter()
-            .find(|grid| clocks.iter().all(|[period, offset]| grid.meets(*period, *offset, epsilon)))
+            .find(|grid| clocks.clone().all(|[period, offset]| grid.meets(period, offset, epsilon)))
     }
 
     /// The nearest whole number of steps to some seconds.

@@ -88,9 +88,9 @@ impl fmt::Display for Error {
                 if start != 0.0 {
                     write!(f, " from the start at {} s", Plain(start))?;
                 }
-                f.write_str("; take ")?;
-                if better > 0.0 {
-                    write!(f, "steps of {} s, or ", Plain(better))?;
+                match better > 0.0 {
+                    true => write!(f, "; take steps of {} s, or ", Plain(better))?,
+                    false => f.write_str("; no constant step leads to the samples of all clocks: take ")?,
                 }
                 f.write_str("a run to a tolerance, whose steps end at samples")
             }
@@ -112,9 +112,9 @@ impl fmt::Display for Error {
             ),
             Self::VelocityForce { coordinate } => write!(
                 f,
-                "a force along `{coordinate}` depends on velocities or reactions, and RATTLE takes forces of \
-                 positions, time and inputs alone; leave dampers, friction and particles beside the centre of a body \
-                 out, or take another method"
+                "the force along `{coordinate}`, or the rate of that state, depends on velocities or reactions, and RATTLE \
+                 takes forces of positions, time and inputs alone; leave dampers, friction and particles beside the \
+                 centre of a body out, or take another method"
             ),
             Self::ReducedStates { method } => write!(
                 f,

@@ -5,6 +5,9 @@ use mbs_runtime::{Info, System};
 use crate::number::significant;
 use crate::{Model, OtherMethod, Settings, Signals, Start, StartKind, StartValue};
 
+/// Times that are nearer to each other than this share of a step are not a step apart but for rounding.
+const NEARLY: f64 = 1.0 - 1e-6;
+
 /// Declared events that are not looked for, a declared method in whose place another one is taken, and what is made
 /// of a table of inputs.
 pub(crate) fn notes(model: &dyn Model, settings: &Settings) -> Vec<String> {
@@ -40,6 +43,15 @@ pub(crate) fn notes(model: &dyn Model, settings: &Settings) -> Vec<String> {
         ));
     }
     notes.extend(settings.signals.iter().flat_map(Signals::notes));
+    let closest = settings.signals.as_ref().map(Signals::closest).filter(|closest| *closest < step * NEARLY);
+    if let (Some(closest), false) = (closest, is_adaptive) {
+        notes.push(format!(
+            "rows of the inputs lie {} s apart, and steps of {} s pass what is between them; --rtol 1e-6 ends a step \
+             where a value jumps or bends",
+            significant(closest, 4),
+            significant(step, 4)
+        ));
+    }
     notes.extend(lost_start_values(model, settings));
     notes
 }

@@ -155,6 +155,12 @@ impl Signals {
         [times().reduce(f64::min), times().reduce(f64::max)].map(|end| end.unwrap_or(0.0))
     }
 
+    /// The shortest time between two rows of an input, in s; infinite without two.
+    pub fn closest(&self) -> f64 {
+        let gaps = self.inputs.iter().flat_map(|input| input.times.windows(2).map(|pair| pair[1] - pair[0]));
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+
     /// When a run begins that takes these inputs, where the table has a clock of its own; see [`own_clock`].
     pub fn start_time(&self) -> Option<f64> {
         own_clock(self.span())

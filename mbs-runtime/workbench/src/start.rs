@@ -74,7 +74,7 @@ fn step(model: &dyn Model, settings: &Settings, parameters: &[f64]) -> Result<f6
         start: settings.signals.as_ref().and_then(Signals::start_time).unwrap_or(0.0),
         step: settings.step,
     };
-    let fitted = grid.fitted(&model.clocks(parameters)?, f64::EPSILON);
+    let fitted = grid.fitted(model.clocks(parameters)?.into_iter(), f64::EPSILON);
     Ok(fitted.map_or(settings.step, |grid| grid.step))
 }
 

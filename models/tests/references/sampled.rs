@@ -174,7 +174,14 @@ fn steps_have_to_meet_the_clocks() {
     assert_eq!(
         refused.to_string(),
         "the clock of `left_wanted` samples every 0.02 s, and no whole number of steps of 0.0003 s leads there; take steps \
-         of 0.00029850746268656717 s, or a run to a tolerance, whose steps end at samples"
+         of 0.00028571428571428574 s, or a run to a tolerance, whose steps end at samples"
+    );
+    // the samples of two clocks, the times of which are multiples of nothing
+    let apart = PathFollowerParameters { fast: 1e-3 * std::f64::consts::PI, ..Default::default() };
+    let refused = Simulation::new(PathFollower::new(apart).unwrap(), 2.5e-4).err().unwrap();
+    assert!(
+        refused.to_string().ends_with("no constant step leads to the samples of all clocks: take a run to a tolerance, whose steps end at samples"),
+        "{refused}"
     );
     let other = PathFollowerParameters { fast: 3e-3, slow: 15e-3, ..Default::default() };
     assert!(Simulation::new(PathFollower::new(other).unwrap(), 3e-4).is_ok());

@@ -103,10 +103,10 @@ impl Scope<'_> {
                     name.span(),
                     format!("`{name}` takes {arity} argument{s}, not {}", arguments.len()),
                 )
-                .help(if arity == 1 {
-                    format!("write `{name}(x)`")
-                } else {
-                    format!("write `{name}(y, x)`")
+                .help(match (arity, function) {
+                    (1, _) => format!("write `{name}(x)`"),
+                    (_, Function::Atan2) => format!("write `{name}(y, x)`"),
+                    _ => format!("write `{name}(x, y)`"),
                 }),
             );
             return None;

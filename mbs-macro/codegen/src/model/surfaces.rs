@@ -92,7 +92,7 @@ fn grid(name: &Ident, points: &[[Formula; 3]], numbers: &[[f64; 3]]) -> Result<G
             false => before.is_some_and(|before| before < y),
         };
         if !is_ordered {
-            return Err(unfit(at, format!("the points of `{name}` are out of order")));
+            return Err(unfit(at, format!("point {} of `{name}` is out of order", at + 1)));
         }
         if is_new {
             grid.x.push(x);
@@ -103,7 +103,7 @@ fn grid(name: &Ident, points: &[[Formula; 3]], numbers: &[[f64; 3]]) -> Result<G
             Some(expected) if *expected == y => {}
             _ => {
                 let message =
-                    format!("this point of `{name}` has a second argument that the first line has not");
+                    format!("point {} of `{name}` has a second argument that the first line has not", at + 1);
                 return Err(unfit(at, message));
             }
         }

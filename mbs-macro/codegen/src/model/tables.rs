@@ -155,10 +155,13 @@ fn check(
         return Err(Diagnostic::new(formula.span, format!("the period of `{name}` is not positive"))
             .help("it is the distance after which the first point returns, as in `period 360 [deg]`"));
     }
-    for (pair, point) in points.windows(2).zip(given.iter().skip(1)) {
+    for (at, (pair, point)) in points.windows(2).zip(given.iter().skip(1)).enumerate() {
         if pair[1].0 <= pair[0].0 {
-            return Err(Diagnostic::new(point.x.span, format!("the points of `{name}` are out of order"))
-                .help("this argument has to be larger than the one before it"));
+            return Err(Diagnostic::new(
+                point.x.span,
+                format!("point {} of `{name}` is out of order", at + 2),
+            )
+            .help("this argument has to be larger than the one before it"));
         }
         if let Some((formula, _)) = period.filter(|(_, period)| pair[1].0 - first.0 >= *period) {
             let is_bare = |formula: &Formula| matches!(formula.kind, FormulaKind::Number { unit: None, .. });

@@ -13,7 +13,7 @@ use syn::{Error, Result, Token, braced, token};
 use super::indices::{Indices, regrouped};
 use super::items::item;
 use super::keywords::keywords;
-use super::words::{block, doc, helped, name};
+use super::words::{block, doc, helped, helped_further, name};
 use super::{Every, Item, ItemKind, clocks};
 use crate::diagnostics::Diagnostics;
 
@@ -146,10 +146,13 @@ impl<'a> Reader<'a> {
     /// `if i > 1 { … } else { … }`
     fn choose(&mut self, content: ParseStream<'_>, indices: &Indices, items: &mut Vec<Item>) -> Result<()> {
         const EXAMPLE: &str = "if i > 1 { … }";
+        const VALUES: &str =
+            "; a value by a condition stands in its formula: `set u = if x > 0 [m] { … } else { … };`";
         let mut is_decided = false;
         loop {
             content.parse::<Token![if]>()?;
-            let holds = condition(content, indices, EXAMPLE)?;
+            let holds =
+                condition(content, indices, EXAMPLE).map_err(|error| helped_further(error, VALUES))?;
             is_decided |= self.branch(content, holds && !is_decided, indices, items)?;
             if content.parse::<Option<Token![else]>>()?.is_none() {
                 return Ok(());

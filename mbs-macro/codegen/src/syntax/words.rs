@@ -33,6 +33,12 @@ pub(super) fn helped(span: Span, message: impl std::fmt::Display, help: impl std
     Error::new(span, format!("{message}{HELP}{help}"))
 }
 
+/// An error with more help behind the one that it has; one without stays as it is.
+pub(super) fn helped_further(error: Error, help: &str) -> Error {
+    let text = error.to_string();
+    if text.contains(HELP) { Error::new(error.span(), format!("{text}{help}")) } else { error }
+}
+
 pub(super) fn name(input: ParseStream<'_>) -> Result<Ident> {
     let name = name_before_unit(input)?;
     if input.peek(token::Bracket) {

@@ -17,6 +17,9 @@ use crate::{Column, Table, Unit};
 const UNCERTAIN: f64 = 0.5;
 /// Residuals are in doubt if their autocorrelation is more than so many of its standard errors.
 const DEPENDENT: f64 = 4.0;
+/// What is left over of exact data is no noise but the error of runs and the digits of a file: up to this share of the
+/// largest value.
+const EXACT: f64 = 1e-6;
 /// Given deviations are in doubt if χ² is off its mean by more than so many standard deviations of χ².
 const UNLIKELY: f64 = 5.0;
 /// Estimates with a larger correlation can hardly be told from each other.
@@ -135,7 +138,9 @@ impl Shown<'_> {
         }
         for (measured, remainder, _) in self.channels() {
             let correlation = remainder.autocorrelation();
-            if correlation.abs() * (measured.values.len() as f64).sqrt() > DEPENDENT {
+            let largest = measured.values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+            let is_exact = remainder.residuals.iter().all(|left| left.abs() <= EXACT * largest);
+            if !is_exact && correlation.abs() * (measured.values.len() as f64).sqrt() > DEPENDENT {
                 let (name, correlation) = (&measured.name, significant(correlation, 2));
                 warnings.push(format!(
                     "what is left over of `{name}` is not independent noise (correlation of neighbours \
