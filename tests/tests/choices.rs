@@ -4,8 +4,8 @@
 use core::f64::consts::PI;
 
 use mbs_runtime::{
-    Adaptive, AdaptiveScheme, Components, Dop853, Dopri5, Dual, Error, Mechanism, Real, State, Tolerances,
-    implicit::Esdirk4, mechanism,
+    Adaptive, AdaptiveScheme, Components, Dop853, Dopri5, Dual, Error, Mechanism, Real, Sampled, State,
+    System, Tolerances, implicit::Esdirk4, mechanism,
 };
 use tests::random::Random;
 
@@ -356,5 +356,65 @@ fn no_pulse_behind_a_delay_is_stepped_over() -> Result<(), Error> {
     for (found, expected) in v.into_array().into_iter().zip([0.01, 0.02, 0.02]) {
         assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     }
+    Ok(())
+}
+
+mechanism! {
+    /// A cart far from the origin that a motor pulls from a moment on.
+    Pulled {
+        dof = 1;
+        param begin = 0.3 [s];
+        body cart (x) { mass = 2 [kg]; }
+        force motor on x = if t > begin { 1 [N] } else { 0 };
+        event faster: der(x) = 1.2 [m/s] rising;
+        event slower: der(x) = 0.8 [m/s] falling;
+        start { x = 10 [m]; der(x) = 1 [m/s]; }
+    }
+}
+
+/// The step over a corner is as short as rounding: the roundings of a position over it were velocities, of -0.48 m/s for
+/// 1 m/s, in rows at that time, and events that never were.
+#[test]
+fn velocities_at_a_corner_are_those_of_the_motion() -> Result<(), Error> {
+    for begin in [0.1, 0.2, 0.3, 0.4, 0.5, 0.7] {
+        let pulled = Pulled::new(PulledParameters { begin })?;
+        let run = Adaptive::builder(pulled).tolerances(Tolerances::relative(1e-8)).build()?;
+        let mut rows = Sampled::new(run, 0.05)?;
+        for row in 1..=13 {
+            while let Some(event) = rows.step_to_event()? {
+                // the one that there is: 1.2 m/s
+                assert!((event.t - begin - 0.4).abs() < 1e-9 && event.index == 0, "{begin}: {event:?}");
+            }
+            let t = f64::from(row) * 0.05;
+            let (mut q, mut v) = ([0.0], [0.0]);
+            rows.state(&mut q, &mut v);
+            let expected = 1.0 + 0.5 * (t - begin).max(0.0);
+            assert!((v[0] - expected).abs() < 1e-9, "{begin}: {v:?} for {expected} at {t}");
+        }
+    }
+    Ok(())
+}
+
+mechanism! {
+    /// A push of 0.1 ms at 2 kHz of a clock that sets nothing new.
+    Ticking {
+        dof = 2;
+        param place = 0.7 [m];
+        memory nothing [1] = 0;
+        every 1 [ms] { set nothing = 0; }
+        body feeler (y) { mass = 1 [kg]; }
+        body cart (x) { mass = 1 [kg]; }
+        force kick on x = 1e4 [N]*min(step(y - place), step(place + 0.1 [mm] - y));
+        start { der(y) = 1 [m/s]; }
+    }
+}
+
+/// A sample begins a step anew, and that step knows on which pieces it begins.
+#[test]
+fn no_zone_behind_a_sample_is_stepped_over() -> Result<(), Error> {
+    let mut run = Adaptive::builder(Ticking::declared()).tolerances(Tolerances::relative(1e-9)).build()?;
+    run.advance_to(1.0)?;
+    let v = run.state().v.x;
+    assert!((v - 1.0).abs() < 1e-6, "{v}");
     Ok(())
 }

@@ -16,6 +16,14 @@ pub struct Moment<T, V> {
     pub a: V,
 }
 
+/// A step of so many roundings of the time leads over a corner.
+const OVER_CORNER: f64 = 64.0;
+
+/// True if a step of `h` seconds to `t` is one over a corner.
+pub fn is_instant(h: f64, t: f64, epsilon: f64) -> bool {
+    h <= OVER_CORNER * epsilon * t.abs()
+}
+
 impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
     /// Time, positions and velocities.
     pub fn at(&self) -> At<'_, T> {
@@ -23,12 +31,22 @@ impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
     }
 
     /// Writes positions and velocities at a time between this moment and `end`, by the terms of a scheme
-    /// where there are such.
+    /// where there are such. In the step over a corner, which is as short as rounding, they are those of this moment:
+    /// the roundings of positions over such a time are no velocities.
     pub fn between(&self, terms: Option<&[[V; 2]; 4]>, end: &Self, t: T, q: &mut V, v: &mut V) {
         match terms {
+            _ if self.is_instant(end) => {
+                vectors::copy(q.as_mut(), self.q.as_ref());
+                vectors::copy(v.as_mut(), self.v.as_ref());
+            }
             Some(terms) => self.interpolate_by(terms, end, t, q, v),
             None => self.interpolate(end, t, q, v),
         }
+    }
+
+    /// True if `end` is as near as the step over a corner.
+    pub fn is_instant(&self, end: &Self) -> bool {
+        is_instant((end.t - self.t).to_f64(), end.t.to_f64(), T::EPSILON.to_f64())
     }
 
     /// Writes positions and velocities at a time between this moment and `end`: the quintic that
@@ -73,6 +91,10 @@ impl<T: Real, V: AsRef<[T]> + AsMut<[T]>> Moment<T, V> {
     /// It is off by O(h³), and by the error of a velocity over h. The second derivative of the quintic would be off by
     /// that of a position times 60/h².
     pub fn acceleration(&self, end: &Self, t: T, a: &mut V) {
+        if self.is_instant(end) {
+            vectors::copy(a.as_mut(), self.a.as_ref());
+            return;
+        }
         let number = T::from_f64;
         let h = end.t - self.t;
         let s = (t - self.t) / h;

@@ -1,8 +1,9 @@
 //! The end of a step at an event.
 
 use super::attempt::is_healthy;
+use super::dense::is_instant;
 use super::events::Watched;
-use super::{Adaptive, AdaptiveScheme, Dynamics, Happened, OVER_CORNER};
+use super::{Adaptive, AdaptiveScheme, Dynamics, Happened};
 use crate::{Error, Real, vectors};
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
@@ -20,8 +21,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if growth.is_some_and(|growth| is_healthy(growth, next)) {
             let ratio = attempt.error(estimate, tolerances, before, next);
             let h = (t - before.t).to_f64();
-            let shortest = OVER_CORNER * D::Real::EPSILON.to_f64() * t.to_f64().abs();
-            let is_good = ratio <= 1.0 || h <= shortest;
+            let is_good = ratio <= 1.0 || is_instant(h, t.to_f64(), D::Real::EPSILON.to_f64());
             if !is_good {
                 self.control.judge(h, ratio, estimate);
                 self.effort.rejected += 1;

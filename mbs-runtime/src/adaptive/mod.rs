@@ -39,6 +39,7 @@ pub(crate) use cause::cause;
 use control::Control;
 pub use control::Tolerances;
 pub use dense::Moment;
+use dense::is_instant;
 pub use dynamics::Dynamics;
 pub use effort::Effort;
 use events::Happened;
@@ -63,8 +64,6 @@ use crate::{Dopri5, Error, Real, vectors};
 
 /// A run gives up after trying this many lengths for one step.
 const TRIALS: usize = 40;
-/// A step of so many roundings of the time leads over a corner.
-const OVER_CORNER: f64 = 64.0;
 /// The error that ends a run is looked for in steps up to this many seconds.
 const LONGEST: f64 = 1.0;
 
@@ -238,8 +237,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             };
             let ratio = self.judged(ratio);
             // the step over a corner cannot be shorter
-            let is_over_corner =
-                t_next >= limit && h <= OVER_CORNER * D::Real::EPSILON.to_f64() * t.to_f64().abs();
+            let is_over_corner = t_next >= limit && is_instant(h, t.to_f64(), D::Real::EPSILON.to_f64());
             let is_good = self.control.judge(h, ratio, &self.estimate) || is_over_corner;
             if let (Some(growth), true) = (growth, is_good) {
                 return self.accept(growth);
@@ -264,8 +262,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         core::mem::swap(now, next);
         (self.happened_before, self.happened) = (self.happened, Happened::default());
         self.between.begin(true);
-        let (h, t) = ((self.now.t - self.before.t).to_f64(), self.now.t.to_f64());
-        self.effort.count(h, h <= OVER_CORNER * D::Real::EPSILON.to_f64() * t.abs());
+        let h = (self.now.t - self.before.t).to_f64();
+        self.effort.count(h, self.before.is_instant(&self.now));
         self.note_progress(growth);
         Ok(())
     }

@@ -4,7 +4,7 @@
 //! leads back to itself from both sides, it ends.
 
 use super::{Adaptive, AdaptiveScheme, Dynamics, Moment};
-use crate::corners::MOST_SWITCHES;
+use crate::corners::{MOST_SWITCHES, Switch};
 use crate::equations::At;
 use crate::{Error, Real, vectors};
 
@@ -44,10 +44,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.switching.calm = calm.max(FORGET * self.switching.calm);
         let Self { dynamics, inputs, now, all, .. } = self;
         let values = switches_at((&*dynamics, &*inputs), now, all);
-        let mut pieces = [0.0; MOST_SWITCHES];
-        for ((piece, value), switch) in pieces.iter_mut().zip(values).zip(switches) {
-            *piece = switch.knots.piece(value);
-        }
+        let pieces = pieces_of(switches, values);
         let Some(before) = self.switching.pieces.replace(pieces) else { return Ok(()) };
         if pieces != before {
             self.control.next = next.max(self.switching.calm);
@@ -130,11 +127,21 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// the two sides with weights of the scheme, may be much less than the error.
     pub(super) fn judged(&mut self, ratio: f64) -> f64 {
         let switches = self.dynamics.equations().switching();
-        let Some(pieces) = self.switching.pieces.filter(|_| ratio <= 1.0 && !switches.is_empty()) else {
+        let is_good = ratio <= 1.0;
+        if switches.is_empty() || !is_good {
             return ratio;
-        };
-        let Self { dynamics, inputs, next, all, .. } = self;
+        }
+        let Self { dynamics, inputs, now, next, all, .. } = self;
         let values = switches_at((&*dynamics, &*inputs), next, all);
+        let pieces = self.switching.pieces.unwrap_or_else(|| {
+            // a value that begins at a knot passes none there
+            let [begins, ends] = [switches_at((&*dynamics, &*inputs), now, all), values]
+                .map(|values| pieces_of(switches, values));
+            core::array::from_fn(|index| match (begins.get(index), ends.get(index)) {
+                (Some(begin), Some(end)) if is_knot(*begin) => *end,
+                (begin, _) => begin.copied().unwrap_or_default(),
+            })
+        });
         let known = switches.iter().zip(pieces).zip(self.switching.rounded);
         // rounding decides of which piece a value is that is held
         let mut ends = values.into_iter().zip(known).filter(|(_, (_, rounded))| *rounded == 0);
@@ -146,6 +153,20 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let left_out = self.left_out(pieces, values, |index| rounded.get(index) == Some(&0));
         (STRICT * ratio).max(left_out)
     }
+}
+
+/// True if a piece is a knot.
+fn is_knot(piece: f64) -> bool {
+    0.5 * piece != crate::spline::floor(0.5 * piece)
+}
+
+/// The pieces on which values are.
+fn pieces_of(switches: &[Switch], values: [f64; MOST_SWITCHES]) -> [f64; MOST_SWITCHES] {
+    let mut pieces = [0.0; MOST_SWITCHES];
+    for ((piece, value), switch) in pieces.iter_mut().zip(values).zip(switches) {
+        *piece = switch.knots.piece(value);
+    }
+    pieces
 }
 
 /// Counts one more; 0 where nothing is counted.
