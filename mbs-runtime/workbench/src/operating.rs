@@ -133,7 +133,9 @@ impl<'a> Operating<'a> {
         let search = about.search(&*run)?;
         let rest = if about.is_here { None } else { Some(equilibrium(run.described(), &search)?) };
         let from = search.from.as_deref().unwrap_or(&[]);
-        let here = || OperatingPoint::resting(model.info(), search.t, from, &start.inputs);
+        // memories are those that the start leaves
+        let inputs = search.inputs.as_deref().unwrap_or(&start.inputs);
+        let here = || OperatingPoint::resting(model.info(), search.t, from, inputs);
         let point = rest.as_ref().map_or_else(here, OperatingPoint::from);
         Ok(Self { name, model, run, point, rest, search, start })
     }

@@ -117,13 +117,39 @@ fn table(request: &Request<'_>, runs: &[(String, Recording)]) -> Result<Table, E
         .iter()
         .map(|(_, run)| Ok(page::summary(request.name, &[], run, request.shown(run)?)))
         .collect::<Result<_, Error>>()?;
-    let Some(first) = summaries.first() else { return Ok(table) };
-    let cell = |summary: &Table, row: usize, column: usize| {
-        summary.rows().get(row).and_then(|row| row.get(column)).cloned().unwrap_or_default()
-    };
-    for row in 0..first.rows().len() {
-        let values = summaries.iter().map(|summary| cell(summary, row, 1));
-        table.row([cell(first, row, 0)].into_iter().chain(values).chain([cell(first, row, 2)]));
+    // runs may have other events, and other numbers of them
+    let keyed: Vec<Vec<(Key, &[String])>> = summaries.iter().map(keyed).collect();
+    let mut keys: Vec<Key> = Vec::new();
+    for rows in &keyed {
+        let mut behind = 0;
+        for (key, _) in rows {
+            behind = match keys.iter().position(|known| known == key) {
+                Some(at) => at + 1,
+                None => {
+                    keys.insert(behind, key.clone());
+                    behind + 1
+                }
+            };
+        }
+    }
+    for key in keys {
+        let found: Vec<Option<&[String]>> =
+            keyed.iter().map(|rows| rows.iter().find(|(own, _)| *own == key).map(|(_, row)| *row)).collect();
+        let cell = |row: &[String], column: usize| row.get(column).cloned().unwrap_or_default();
+        let values = found.iter().map(|row| row.map_or_else(|| "–".to_owned(), |row| cell(row, 1)));
+        let unit = found.iter().flatten().map(|row| cell(row, 2)).next().unwrap_or_default();
+        table.row([key.0.clone()].into_iter().chain(values).chain([unit]));
     }
     Ok(table)
+}
+
+/// What a row is called, and how many rows before it are.
+type Key = (String, usize);
+
+/// The rows of a summary with their keys.
+fn keyed(summary: &Table) -> Vec<(Key, &[String])> {
+    let rows = summary.rows();
+    let name = |row: &[String]| row.first().cloned().unwrap_or_default();
+    let before = |at: usize| rows.iter().take(at).filter(|row| name(row) == name(&rows[at])).count();
+    rows.iter().enumerate().map(|(at, row)| ((name(row), before(at)), &row[..])).collect()
 }
