@@ -1,5 +1,6 @@
 //! The outputs, energies, texts and pictures of a mechanism, apart from its equations.
 
+use crate::contact::press;
 use crate::differentiable::Differentiable;
 use crate::equations::{At, Equations, read, write};
 use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch, vectors};
@@ -49,7 +50,10 @@ impl<M: Mechanism> Described<M::Real> for M {
         let solved = Mechanism::reactions(self, &at.state(), &read(inputs), &none);
         write(solved.acceleration, acceleration);
         write(solved.multipliers, multipliers);
-        solved.growth
+        if M::INFO.stops.is_empty() {
+            return solved.growth;
+        }
+        solved.growth + press(self, at, inputs, acceleration, Some(multipliers))
     }
 
     fn outputs(

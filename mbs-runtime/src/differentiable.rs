@@ -108,6 +108,9 @@ impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
         Equations::next_corner(t: f64, inputs: &[f64]) -> f64;
         Equations::switching() -> &'static [Switch];
         Equations::switches(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
+        Equations::stop_laws(laws: &mut [f64]);
+        Equations::gaps(at: At<'_, f64>, acceleration: &[f64], gaps: &mut [f64]);
+        Equations::contacts(t: f64, q: &[f64], what: &mut dyn FnMut(&[f64]));
         Equations::clock(clock: usize) -> [f64; 2];
         Equations::sample(at: At<'_, f64>, inputs: &mut [f64], clock: usize);
         Equations::kinetic_energy(at: At<'_, f64>) -> f64;

@@ -8,6 +8,7 @@
 //! [`Info`]. The vectors of a step have a component per coordinate that is integrated
 //! ([`Info::states`]). SI units, angles in rad.
 
+pub use crate::contact::press;
 pub use crate::described::Described;
 pub use crate::differentiable::{Differentiable, Differentiated, PARTIALS, Partials};
 pub use crate::reach::reach;
@@ -21,7 +22,7 @@ pub use crate::start::preparation::{Preparation, Start};
 pub use crate::start::projection::project;
 pub use crate::watch::Watch;
 
-use crate::{Components, Gains, Info, Mechanism, Real, State, Switch, vectors};
+use crate::{Components, Gains, Info, Mechanism, Reactions, Real, State, Switch, vectors};
 
 /// Time, positions and velocities as slices.
 #[derive(Clone, Copy, Debug)]
@@ -110,6 +111,15 @@ pub trait Equations<T: Real> {
     /// Writes those values.
     fn switches(&self, _at: At<'_, T>, _inputs: &[T], _values: &mut [T]) {}
 
+    /// Writes restitution and settling of every stop; see [`Mechanism::stop_laws`].
+    fn stop_laws(&self, _laws: &mut [T]) {}
+
+    /// Writes the gap of every stop, its rate and its second derivative; see [`Mechanism::gaps`].
+    fn gaps(&self, _at: At<'_, T>, _acceleration: &[T], _gaps: &mut [T]) {}
+
+    /// Does something with the responses to unit impulses along gaps; see [`Mechanism::contacts`].
+    fn contacts(&self, _t: T, _q: &[T], _what: &mut dyn FnMut(&[T])) {}
+
     /// The period and the offset of a clock in s; see [`Mechanism::clock`].
     fn clock(&self, clock: usize) -> [T; 2];
 
@@ -138,6 +148,21 @@ impl<M: Mechanism> Equations<M::Real> for M {
 
     fn switches(&self, at: At<'_, M::Real>, inputs: &[M::Real], values: &mut [M::Real]) {
         Mechanism::switches(self, &at.state(), &read(inputs), values);
+    }
+
+    fn stop_laws(&self, laws: &mut [M::Real]) {
+        Mechanism::stop_laws(self, laws);
+    }
+
+    fn gaps(&self, at: At<'_, M::Real>, acceleration: &[M::Real], gaps: &mut [M::Real]) {
+        let multipliers = M::Constraints::splat(M::Real::default());
+        let reactions =
+            Reactions { acceleration: read(acceleration), multipliers, growth: M::Real::default() };
+        Mechanism::gaps(self, &at.state(), &reactions, gaps);
+    }
+
+    fn contacts(&self, t: M::Real, q: &[M::Real], what: &mut dyn FnMut(&[M::Real])) {
+        Mechanism::contacts(self, t, &read(q), what);
     }
 
     fn clock(&self, clock: usize) -> [M::Real; 2] {

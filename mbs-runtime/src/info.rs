@@ -2,6 +2,9 @@
 
 use crate::Error;
 
+/// At most so many events are watched at once.
+pub const MOST_EVENTS: usize = 64;
+
 /// A mechanism described for people and tools.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -48,6 +51,8 @@ pub struct Info {
     pub start_pivots: &'static [Pivot],
     /// The clocks, and the memories among the inputs that they set.
     pub sampling: Sampling,
+    /// The ends of the way, which runs to a tolerance hit and rest on.
+    pub stops: &'static [DeclaredStop],
     /// Operation counts of the generated functions.
     pub functions: &'static [Function],
 }
@@ -95,6 +100,24 @@ pub struct Quantity {
     pub dimension: Dimension,
     /// Declared value in SI units; 0 where none was declared.
     pub default: f64,
+}
+
+/// An end of the way that is declared: its gap is 0 where it is touched, and never negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeclaredStop {
+    /// Its name.
+    pub name: &'static str,
+    /// Its documentation.
+    pub doc: &'static str,
+    /// The unit of its gap.
+    pub unit: &'static str,
+    /// The dimension of its gap.
+    pub dimension: Dimension,
+    /// The place among the inputs of the memory that is 1 while it is rested on; that of the sum of its impulses is behind
+    /// it.
+    pub memory: usize,
+    /// The gap, unless it is too long to read.
+    pub formula: &'static str,
 }
 
 /// A declared change of sign of a value.
@@ -283,6 +306,24 @@ impl Info {
         }
     }
 
+    /// The name of an event by its index: that of a declared one, or of a stop, which count down from the last of
+    /// [`MOST_EVENTS`](crate::MOST_EVENTS).
+    pub fn event_name(&self, index: usize) -> Option<&'static str> {
+        let stop = (MOST_EVENTS - 1).checked_sub(index).and_then(|stop| self.stops.get(stop));
+        self.events.get(index).map(|event| event.name).or(stop.map(|stop| stop.name))
+    }
+
+    /// Refuses stops, for what sees no impact.
+    ///
+    /// # Errors
+    /// [`Error::Stops`].
+    pub fn refuse_stops(&self, what: &'static str) -> Result<(), Error> {
+        match self.stops.first() {
+            Some(stop) => Err(Error::Stops { what, stop: stop.name }),
+            None => Ok(()),
+        }
+    }
+
     /// Refuses memories that clocks set, for what knows none.
     ///
     /// # Errors
@@ -320,6 +361,7 @@ impl Info {
         pivots: &'static [Pivot],
         start_pivots: &'static [Pivot],
         sampling: Sampling,
+        stops: &'static [DeclaredStop],
         functions: &'static [Function],
     ) -> Self {
         Self {
@@ -340,6 +382,7 @@ impl Info {
             pivots,
             start_pivots,
             sampling,
+            stops,
             functions,
         }
     }

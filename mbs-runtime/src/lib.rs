@@ -117,6 +117,7 @@ pub mod arrays;
 mod baumgarte;
 mod components;
 mod constant;
+mod contact;
 mod corners;
 mod derivation;
 mod described;
@@ -175,7 +176,8 @@ pub use derivation::{Derivation, Elimination, Formula};
 pub use dual::Dual;
 pub use error::Error;
 pub use info::{
-    Constraint, DeclaredEvent, Dimension, Direction, Function, Info, Operations, Pivot, Quantity, Sampling,
+    Constraint, DeclaredEvent, DeclaredStop, Dimension, Direction, Function, Info, Operations, Pivot,
+    Quantity, Sampling,
 };
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;

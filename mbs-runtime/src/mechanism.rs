@@ -333,6 +333,29 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// Writes the values of [`SWITCHES`](Self::SWITCHES).
     fn switches(&self, _at: &State<Self::Coordinates>, _inputs: &Self::Inputs, _values: &mut [Self::Real]) {}
 
+    /// Writes the restitution of every [stop](Info::stops), and the share of its longest flight below which it is not left
+    /// again.
+    fn stop_laws(&self, _laws: &mut [Self::Real]) {}
+
+    /// Writes the gap of every stop, its rate and its second derivative with given accelerations.
+    fn gaps(
+        &self,
+        _at: &State<Self::Coordinates>,
+        _reactions: &Reactions<Self::Coordinates, Self::Constraints>,
+        _gaps: &mut [Self::Real],
+    ) {
+    }
+
+    /// Does something with the responses to unit impulses along the gaps of stops: of each the changes Y of the
+    /// velocities and those of the multipliers μ, and ∂g/∂q,
+    ///
+    /// ```text
+    /// M Y + Φ_qᵀ μ = (∂g/∂q)ᵀ    Φ_q Y = 0
+    /// ```
+    ///
+    /// then W = ∂g/∂q Y, one row per stop, and the pivot growth.
+    fn contacts(&self, _t: Self::Real, _q: &Self::Coordinates, _what: &mut dyn FnMut(&[Self::Real])) {}
+
     /// The period and the offset of a clock in s: it samples at the times offset + k period, k whole.
     fn clock(&self, _clock: usize) -> [Self::Real; 2] {
         [Self::Real::from_f64(f64::NAN); 2]

@@ -30,6 +30,7 @@ impl Grid {
     /// [`Error::Period`].
     pub fn check<T: Real>(&self, equations: &dyn Equations<T>) -> Result<(), Error> {
         let info = equations.info();
+        info.refuse_stops("a run with constant steps")?;
         for clock in 0..info.sampling.clocks {
             let [period, offset] = equations.clock(clock).map(Real::to_f64);
             if !self.meets(period, offset, T::EPSILON.to_f64()) {

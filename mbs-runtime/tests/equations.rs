@@ -75,6 +75,7 @@ impl Pendulums {
             pivots,
             Sampling::NONE,
             &[],
+            &[],
         );
         Self { lengths: lengths.to_vec(), info }
     }

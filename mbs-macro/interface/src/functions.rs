@@ -61,6 +61,13 @@ pub enum Results {
     Switches,
     /// Period and offset of every clock.
     Clocks,
+    /// Restitution and settling of every stop.
+    Stops,
+    /// The gap of every stop, its rate and its second derivative.
+    Gaps,
+    /// Of every stop what a unit impulse along its gap does to velocities and multipliers, and the slopes of its gap; then
+    /// how all impulses change the rates of the gaps, and the pivot growth.
+    Contacts,
     /// One number per memory that a clock sets.
     Samples,
     /// Two numbers per point.
@@ -186,6 +193,12 @@ functions! {
     Corners = "corners"(Inputs) -> [result: Corners], [Adaptive, Whole];
     /// The values at whose knots forces, constraints or events bend or jump, beside those of time alone.
     Switches = "switches"(Time, Positions, Velocities, Inputs) -> [result: Switches], [Adaptive, Whole];
+    /// The restitution of every stop, and the share of its longest flight below which it is not left again.
+    Stops = "stop_laws"() -> [result: Stops], [Adaptive, Whole];
+    /// The gap of every stop, its rate and its second derivative with given accelerations.
+    Gaps = "gaps"(Time, Positions, Velocities, Reactions) -> [result: Gaps], [Adaptive];
+    /// Y and μ of M Y + Φ_qᵀ μ = ∂g/∂q, Φ_q Y = 0 for the gap g of every stop, and W = ∂g/∂q Y.
+    Contacts = "contacts"(Time, Positions) -> [result: Contacts], [Adaptive];
     /// The period and the offset of every clock in s.
     Clocks = "clocks"() -> [result: Clocks], [Sampled, Whole];
     /// The values that every clock sets its memories to, one clock after the other.

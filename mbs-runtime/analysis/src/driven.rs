@@ -230,6 +230,9 @@ impl<D: Dynamics> Equations<D::Real> for Driven<D> {
         kinetic_energy(at: At<'_, D::Real>) -> D::Real;
         states(all: &[D::Real], states: &mut [D::Real]);
         switching() -> &'static [Switch];
+        stop_laws(laws: &mut [D::Real]);
+        gaps(at: At<'_, D::Real>, acceleration: &[D::Real], gaps: &mut [D::Real]);
+        contacts(t: D::Real, q: &[D::Real], what: &mut dyn FnMut(&[D::Real]));
         clock(clock: usize) -> [D::Real; 2];
         sample(at: At<'_, D::Real>, inputs: &mut [D::Real], clock: usize);
     }

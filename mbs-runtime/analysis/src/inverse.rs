@@ -188,6 +188,7 @@ pub fn inverse(
     Error::refuse_rates(info, "an inverse motion")?;
     Error::refuse_states(info, "an inverse motion")?;
     info.refuse_clocks("an inverse motion")?;
+    info.refuse_stops("an inverse motion")?;
     let names: Vec<String> = request.curves.iter().map(|(name, _)| name.clone()).collect();
     let places = places(mechanism, &names)?;
     let defaults = || info.inputs.iter().map(|input| input.default).collect();

@@ -46,6 +46,7 @@ mod rest;
 mod sensitivity;
 mod signal;
 mod singular;
+mod stops;
 mod synthesis;
 #[doc = include_str!("synthesis/linkages.md")]
 #[doc = include_str!("synthesis/linkages.svg")]

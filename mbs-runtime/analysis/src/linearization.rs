@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::chart::Chart;
 use crate::derivative::{Derivatives, Direction, Values, size_of_state};
 use crate::family::{Family, Varied};
+use crate::stops::refuse_contact;
 use crate::{Error, OperatingPoint, Signal, Variable};
 
 /// A rate in 1/s that is slower than any mechanism.
@@ -168,6 +169,7 @@ pub fn linearize(
     inputs.extend(Signal::parameters(info, &ports.parameters)?);
     let outputs = Signal::outputs(info, ports.outputs.as_deref())?;
     point.check(mechanism)?;
+    refuse_contact(mechanism, (point.t, &point.q), "a linear system about a closed stop")?;
     let chart = Chart::new(mechanism, point, ports.states.as_deref())?;
     let mut parameters = vec![0.0; info.parameters.len()];
     mechanism.parameters(&mut parameters);

@@ -178,7 +178,10 @@ impl Signal {
 
     /// The inputs with these names, or all.
     pub(crate) fn inputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
-        let all = Self::all(info, info.inputs.len(), Variable::Input);
+        // a stop sets its memories at impacts, between which they change nothing
+        let of_stop = |at: usize| info.stops.iter().any(|stop| stop.memory == at || stop.memory + 1 == at);
+        let places = (0..info.inputs.len()).filter(|at| !of_stop(*at));
+        let all: Vec<Self> = places.filter_map(|at| Self::of(info, Variable::Input(at))).collect();
         names.map_or(Ok(all.clone()), |names| chosen("input", &all, names))
     }
 

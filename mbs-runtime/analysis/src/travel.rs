@@ -196,6 +196,7 @@ pub fn travel(mechanism: &dyn Described<f64>, request: &Travel) -> Result<Vec<Po
     Error::refuse_rates(info, "a slow motion")?;
     Error::refuse_states(info, "a slow motion")?;
     info.refuse_clocks("a slow motion")?;
+    info.refuse_stops("a slow motion")?;
     let defaults = || info.inputs.iter().map(|input| input.default).collect();
     let inputs: Vec<f64> = request.inputs.clone().unwrap_or_else(defaults);
     let declared = || info.coordinates.iter().map(|q| q.default).collect();

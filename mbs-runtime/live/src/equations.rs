@@ -4,7 +4,7 @@ use std::any::Any;
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::__private::{next_corner, worst};
-use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials};
+use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials, press};
 use mbs_runtime::{Derivation, Error, Gains, Info, Real, Sketch, Switch};
 
 use crate::Live;
@@ -115,6 +115,25 @@ impl<T: Real> Equations<T> for Live<T> {
         next_corner(t, lines.as_chunks().0, corners)
     }
 
+    fn stop_laws(&self, laws: &mut [T]) {
+        self.call(FunctionId::Stops, &Arguments::default(), [laws]);
+    }
+
+    fn gaps(&self, at: At<'_, T>, acceleration: &[T], gaps: &mut [T]) {
+        let given = Arguments { acceleration: single(acceleration), ..state(at) };
+        self.call(FunctionId::Gaps, &given, [gaps]);
+    }
+
+    fn contacts(&self, t: T, q: &[T], what: &mut dyn FnMut(&[T])) {
+        let info = self.declared_info();
+        let (stops, each) = (info.stops.len(), 2 * info.coordinates.len() + info.constraints.len());
+        if stops > 0 {
+            let mut values = vec![T::from_f64(f64::NAN); stops * (each + stops) + 1];
+            self.call(FunctionId::Contacts, &position(t, q), [&mut values]);
+            what(&values);
+        }
+    }
+
     fn clock(&self, clock: usize) -> [T; 2] {
         let mut times = vec![T::from_f64(f64::NAN); 2 * self.declared_info().sampling.clocks];
         self.call(FunctionId::Clocks, &Arguments::default(), [&mut times]);
@@ -144,7 +163,9 @@ impl<T: Real> Described<T> for Live<T> {
     fn reactions(&self, at: At<'_, T>, inputs: &[T], acceleration: &mut [T], multipliers: &mut [T]) -> T {
         let no_feedback = vec![T::ZERO; self.declared_info().constraints.len()];
         let given = Arguments { inputs: single(inputs), feedback: single(&no_feedback), ..state(at) };
-        self.solve(|growth| self.call(FunctionId::Reactions, &given, [acceleration, multipliers, growth]))
+        let growth = self
+            .solve(|growth| self.call(FunctionId::Reactions, &given, [acceleration, multipliers, growth]));
+        growth + press(self, at, inputs, acceleration, Some(multipliers))
     }
 
     fn outputs(

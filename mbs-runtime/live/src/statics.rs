@@ -12,8 +12,8 @@ use mbs_codegen::Compiled;
 use mbs_codegen::compiled::{self, Count, Crossing};
 use mbs_runtime::__private::{Segment, Spline};
 use mbs_runtime::{
-    Constraint, DeclaredEvent, Derivation, Dimension, Direction, Function, Info, Knots, Operations, Pivot,
-    Quantity, Sampling, Sketch, Switch,
+    Constraint, DeclaredEvent, DeclaredStop, Derivation, Dimension, Direction, Function, Info, Knots,
+    Operations, Pivot, Quantity, Sampling, Sketch, Switch,
 };
 use mbs_symbolic::{Block, units};
 
@@ -108,6 +108,7 @@ fn info(compiled: &Compiled) -> Info {
         leak(compiled.pivots.iter().map(pivot)),
         leak(compiled.start_pivots.iter().map(pivot)),
         sampling(&compiled.sampling),
+        leak(compiled.stops.iter().map(stop)),
         leak(compiled.counts().into_iter().map(|count| function(compiled, &count))),
     )
 }
@@ -124,6 +125,19 @@ fn quantity(quantity: &compiled::Quantity, default: f64) -> Quantity {
     let compiled::Quantity { name, doc, unit, scale, dimension: of } = quantity;
     let dimension = dimension(*of);
     Quantity { name: text(name), doc: text(doc), unit: text(unit), scale: *scale, dimension, default }
+}
+
+fn stop(stop: &compiled::Stop) -> DeclaredStop {
+    let compiled::Quantity { name, doc, unit, dimension: of, .. } = &stop.quantity;
+    let (name, doc, unit) = (text(name), text(doc), text(unit));
+    DeclaredStop {
+        name,
+        doc,
+        unit,
+        dimension: dimension(*of),
+        memory: stop.memory,
+        formula: text(&stop.formula),
+    }
 }
 
 fn event(event: &compiled::Event) -> DeclaredEvent {

@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 use super::attempt::{Attempt, is_healthy};
 use super::between::Between;
 use super::events::Happened;
+use super::gaps::Stopping;
 use super::noise::Progress;
 use super::switching::Switching;
 use super::{Adaptive, AdaptiveScheme, Beginning, Control, Dynamics, Effort, Moment, Tolerances};
@@ -102,6 +103,9 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
         let scheme = S::WORD;
         let estimate = S::ESTIMATE.ok_or(Error::NoEstimate { scheme })?;
         self.tolerances.check::<D::Real>()?;
+        if S::RELAXES {
+            self.beginning.dynamics.equations().info().refuse_stops(S::WORD)?;
+        }
         let Self { mut beginning, tolerances, most_steps, goes_on, .. } = self;
         let length = beginning.prepare::<S::Explicit>(NOMINAL_STEP)?;
         let Beginning { dynamics, inputs, state: (t, q, v), .. } = beginning;
@@ -134,11 +138,15 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
             effort: Effort::default(),
             progress: Progress::new(),
             switching: Switching::new(),
+            stopping: Stopping::new(),
             sampled: None,
             happened: Happened { is_set: true, ..Happened::default() },
             happened_before: Happened::default(),
         };
         run.sampled = goes_on.then_some(run.now.t);
+        if !goes_on {
+            run.touch()?;
+        }
         run.sample(false);
         run.solve()?;
         run.before = run.now.clone();

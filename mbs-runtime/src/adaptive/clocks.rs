@@ -3,9 +3,10 @@
 //! A sample is taken before the next step, or where the run is looked at. Until then the last step is known with the
 //! memories that it was taken with.
 
-use super::crossing::bits;
 use super::events::{Happened, MOST_EVENTS, Watched};
+use super::gaps::bits;
 use super::{Adaptive, AdaptiveScheme, Dynamics};
+use crate::Error;
 use crate::equations::At;
 use crate::samples::{is_sample, next_sample, sample_at};
 
@@ -43,12 +44,21 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.sampled = Some(self.now.t);
     }
 
-    /// Takes the samples that are due; a value that changes its sign by them is an event at the present time.
-    pub(super) fn sample_and_look(&mut self, is_exact: bool, watched: &mut Watched<'_, D>) {
-        if !self.is_due(is_exact) {
-            return;
+    /// Makes the jump and takes the samples that are due; a value that changes its sign by them is an event at the
+    /// present time.
+    ///
+    /// # Errors
+    /// Those of the jump.
+    pub(super) fn sample_and_look(
+        &mut self,
+        is_exact: bool,
+        watched: &mut Watched<'_, D>,
+    ) -> Result<(), Error> {
+        if !(self.is_due(is_exact) || self.stopping.reached != 0) {
+            return Ok(());
         }
         let before = self.watched_now(watched);
+        self.jump()?;
         self.sample(is_exact);
         let after = self.watched_now(watched);
         for (index, bit) in bits(watched.count) {
@@ -61,6 +71,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 *rising = *rising & !bit | if is_rising { bit } else { 0 };
             }
         }
+        Ok(())
     }
 
     /// The watched values of the present state.

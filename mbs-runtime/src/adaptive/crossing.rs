@@ -3,6 +3,7 @@
 use super::attempt::is_healthy;
 use super::change::last_change;
 use super::events::{Happened, Watched};
+use super::gaps::{self, bits};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::{Error, Real, vectors};
 
@@ -30,10 +31,10 @@ const STILL: f64 = 1e-6;
 
 /// Two times between which a value changes its sign.
 #[derive(Clone, Copy)]
-struct Bracket<T> {
-    from: T,
-    to: T,
-    is_rising: bool,
+pub(super) struct Bracket<T> {
+    pub from: T,
+    pub to: T,
+    pub is_rising: bool,
 }
 
 /// From when on a value has a sign, the value then, and how it is rounded.
@@ -55,21 +56,24 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::EndlessEvents`]; the run is then where the step began.
     pub(super) fn look_back(&mut self, watched: &mut Watched<'_, D>) -> Result<(), Error> {
-        if watched.count == 0 {
+        if watched.bits(&self.dynamics).next().is_none() {
             return Ok(());
         }
         self.look_between();
-        self.leave(watched)?;
+        if self.leave(watched)? {
+            return Ok(());
+        }
         let mut first: Option<(D::Real, usize)> = None;
-        for index in 0..watched.count {
+        for (index, _) in watched.bits(&self.dynamics) {
             if let Some(bracket) = self.bracket(index, watched) {
                 let t = self.locate(index, bracket, watched);
                 first = first.filter(|(earlier, _)| *earlier <= t).or(Some((t, index)));
             }
         }
-        let Some((first, which)) = first else { return Ok(()) };
+        let is_shorter = self.is_shorter();
+        let Some((first, which)) = first.filter(|_| !is_shorter) else { return Ok(()) };
         let mut happened = self.happened;
-        for (index, bit) in bits(watched.count) {
+        for (index, bit) in watched.bits(&self.dynamics) {
             if let Some(bracket) = self.bracket(index, watched)
                 && self.locate(index, bracket, watched) <= first
             {
@@ -85,20 +89,23 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let kept = !happened.all;
         let (judged, turned) = (happened.judged & kept, happened.turned & kept);
         self.happened = Happened { due: happened.all, judged, turned, ..happened };
+        self.reach_stops();
         Ok(())
     }
 
     /// Looks at values that were at their events where the step began, in a state that a program has set
-    /// there. One that is zero still is looked at again after the next step.
+    /// there. One that is zero still is looked at again after the next step. True if it is the gap of a stop that
+    /// is not left: the run is then where the step began, and rests on it.
     ///
     /// # Errors
     /// [`Error::EndlessEvents`] of one that the program has turned around, and that is back behind its event
     /// before it has left zero by more than rounding; the run is then where the step began.
-    fn leave(&mut self, watched: &mut Watched<'_, D>) -> Result<(), Error> {
+    fn leave(&mut self, watched: &mut Watched<'_, D>) -> Result<bool, Error> {
         let Happened { all, rising, judged, turned, is_set, .. } = self.happened_before;
         let at_events = if is_set { all | judged } else { judged };
         let mut kept = Happened::default();
-        for (index, bit) in bits(watched.count).filter(|(_, bit)| at_events & bit != 0) {
+        let stops = gaps::watched(0, self.dynamics.equations().info().stops.len());
+        for (index, bit) in stops.chain(bits(watched.count)).filter(|(_, bit)| at_events & bit != 0) {
             let is_rising = rising & bit != 0;
             let Beginning { value, rounding, is_zero, .. } = self.beginning(index, watched);
             let is_turned = match judged & bit != 0 {
@@ -112,13 +119,18 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             } else if is_turned && is_rising == (value > D::Real::default()) {
                 let events = self.dynamics.equations().info().events;
                 let declared = events.get(index).filter(|_| watched.is_declared);
-                let name = declared.map_or("", |event| event.name);
+                let stop = gaps::stop_in(self.dynamics.equations(), index);
+                let known = stop.and_then(|stop| self.dynamics.equations().info().stops.get(stop));
+                let name = declared.map(|event| event.name).or(known.map(|stop| stop.name)).unwrap_or("");
                 self.step_back();
+                if stop.is_some_and(|stop| self.is_stuck(stop)) {
+                    return Ok(true);
+                }
                 return Err(Error::EndlessEvents { t: self.now.t.to_f64(), name, index });
             }
         }
         self.happened = kept;
-        Ok(())
+        Ok(false)
     }
 
     /// Reports whether a program has turned a value around at its event: in the state that it has set, the value does
@@ -155,7 +167,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// and away from it at the second, may have crossed zero twice: its extremum decides.
     fn bracket(&mut self, index: usize, watched: &mut Watched<'_, D>) -> Option<Bracket<D::Real>> {
         let (number, zero) = (D::Real::from_f64, D::Real::default());
-        let direction = (watched.direction)(index)?;
+        let direction = watched.direction(&self.dynamics, index)?;
         let (start, end) = (self.before.t, self.now.t);
         let Beginning { first, t: mut from, value: mut before, is_zero, .. } = self.beginning(index, watched);
         if is_zero {
@@ -163,6 +175,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         if let Some(is_rising) = direction.met(first, before) {
             return Some(Bracket { from: start, to: from, is_rising });
+        }
+        if gaps::stop_in(self.dynamics.equations(), index).is_some() {
+            return self.closing(index, (from, before), watched);
         }
         for part in 1..=PARTS {
             let share = number(f64::from(part) / f64::from(PARTS));
@@ -191,7 +206,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let (start, end) = (self.before.t, self.now.t);
         let value = self.value_between(start, index, watched);
         let Happened { all, judged, is_set, .. } = self.happened_before;
-        let bit = bits(watched.count).nth(index).map_or(0, |(_, bit)| bit);
+        let bit = u32::try_from(index).ok().and_then(|index| 1_u64.checked_shl(index)).unwrap_or(0);
         let is_at_event = (judged | if is_set { all } else { 0 }) & bit != 0;
         // at its event a value has a sign by rounding
         let first = if is_at_event { D::Real::default() } else { value };
@@ -272,7 +287,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     }
 
     /// A value at a time within the last step, by interpolation.
-    fn value_between(&mut self, t: D::Real, index: usize, watched: &mut Watched<'_, D>) -> D::Real {
+    pub(super) fn value_between(
+        &mut self,
+        t: D::Real,
+        index: usize,
+        watched: &mut Watched<'_, D>,
+    ) -> D::Real {
         let Self { before, now, next, dynamics, inputs, attempt, all, between, .. } = self;
         let moment = if t <= before.t {
             before
@@ -328,9 +348,4 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         last_change([low, high], stepped)
     }
-}
-
-/// The watched values with their bits.
-pub(super) fn bits(count: usize) -> impl Iterator<Item = (usize, u64)> {
-    (0..count).zip((0..).map_while(|at| 1_u64.checked_shl(at)))
 }

@@ -7,6 +7,7 @@
 //! * a type whose name is forgotten (`adaptive.rs` of the workbench), so that these runs are compiled once
 //!   for all types.
 
+use crate::contact::press;
 use crate::equations::{At, Described, Equations};
 use crate::explicit::{Beside, correct};
 use crate::room::{OnStack, Room};
@@ -189,7 +190,11 @@ impl<M: Mechanism> Dynamics for M {
         let none = M::Constraints::splat(M::Real::default());
         let Accelerations { acceleration: solved, growth } = self.constrained(&at, inputs, &none);
         *acceleration = solved.into_array();
-        growth
+        if M::INFO.stops.is_empty() {
+            return growth;
+        }
+        let (inputs, at) = (inputs.into_array(), At { t, q: q.as_ref(), v: v.as_ref() });
+        growth + press(self, at, inputs.as_ref(), acceleration.as_mut(), None)
     }
 
     fn implicit(

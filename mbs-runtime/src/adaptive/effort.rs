@@ -14,6 +14,9 @@ pub struct Effort {
 }
 
 impl Effort {
+    /// Before the first step.
+    pub(crate) const NONE: Self = Self { steps: 0, rejected: 0, shortest: 0.0, longest: 0.0 };
+
     /// Counts a step of `h` seconds, which is the shortest one unless it leads over a corner that time passes.
     pub fn count(&mut self, h: f64, is_over_corner: bool) {
         if !is_over_corner {

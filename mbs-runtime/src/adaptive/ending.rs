@@ -44,6 +44,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.now = self.before.clone();
         self.happened = Happened { due: 0, ..self.happened_before };
         self.switching.pieces = None;
+        self.stopping.reached = 0;
         self.between.begin(false);
     }
 

@@ -5,6 +5,7 @@
 //! of sign is located, and the step ends there (`ending`).
 
 use super::dense::Moment;
+use super::gaps;
 use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::equations::At;
 use crate::info::Direction;
@@ -21,8 +22,7 @@ pub struct Event {
     pub is_rising: bool,
 }
 
-/// At most so many events are watched at once.
-pub const MOST_EVENTS: usize = 64;
+pub use crate::info::MOST_EVENTS;
 
 /// Writes values of a mechanism with these inputs in a state.
 type Values<'a, D> =
@@ -80,11 +80,13 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             return Err(Error::EndTime { end, now: self.now.t.to_f64() });
         }
         loop {
-            self.sample_and_look(self.now.t < last, watched);
+            self.sample_and_look(self.now.t < last, watched)?;
+            self.forget_stops();
             if let Some(event) = self.due() {
                 return Ok(Some(event));
             }
             if self.now.t >= last {
+                self.jump()?;
                 return Ok(None);
             }
             self.step_to(last)?;
@@ -148,17 +150,31 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         limit: D::Real,
         watched: &mut Watched<'_, D>,
     ) -> Result<Option<Event>, Error> {
-        self.sample_and_look(true, watched);
+        self.sample_and_look(true, watched)?;
         if let Some(event) = self.due() {
             return Ok(Some(event));
         }
         self.step_to(limit)?;
         self.look_back(watched)?;
+        self.forget_releases();
         Ok(self.due())
     }
 }
 
 impl<D: Dynamics> Watched<'_, D> {
+    /// The places of the values, and those of stops, with their bits.
+    pub(super) fn bits(&self, dynamics: &D) -> impl Iterator<Item = (usize, u64)> + use<D> {
+        gaps::watched(self.count, dynamics.equations().info().stops.len())
+    }
+
+    /// Which changes of sign of a value count.
+    pub(super) fn direction(&self, dynamics: &D, index: usize) -> Option<Direction> {
+        match gaps::stop_in(dynamics.equations(), index) {
+            Some(_) => Some(gaps::DIRECTION),
+            None => (self.direction)(index),
+        }
+    }
+
     /// One of the values.
     pub(super) fn value(
         &mut self,
@@ -170,6 +186,9 @@ impl<D: Dynamics> Watched<'_, D> {
         dynamics.complete(*t, q, v, all);
         let [q, v] = all;
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
+        if let Some(stop) = gaps::stop_in(dynamics.equations(), index) {
+            return gaps::value(dynamics, inputs, at, stop);
+        }
         (self.values)(dynamics, inputs, at, self.room);
         self.room.get(index).copied().unwrap_or(D::Real::from_f64(f64::NAN))
     }

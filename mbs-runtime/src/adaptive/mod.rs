@@ -5,7 +5,8 @@
 //! * `scheme` has the stages of a step. `attempt` takes it and estimates its error. `control` chooses the
 //!   next length.
 //! * `dense` has the motion within a step. `crossing` looks through it for events, and `ending` ends a step
-//!   at one. `switches` looks where laws bend or jump, `passing` at steps over several such places.
+//!   at one. `stops` sees where the motion hits a stop, `closing` where a gap closes, `jump` what follows.
+//! * `switches` looks where laws bend or jump, `passing` at steps over several such places.
 //! * `sampled` makes a `System` of a run. `cause` finds the error that ends one.
 
 mod attempt;
@@ -15,6 +16,7 @@ mod builder;
 mod cause;
 mod change;
 mod clocks;
+mod closing;
 mod control;
 mod crossing;
 mod dense;
@@ -22,10 +24,13 @@ mod dynamics;
 mod effort;
 mod ending;
 mod events;
+mod gaps;
+mod jump;
 mod noise;
 mod passing;
 mod sampled;
 mod scheme;
+mod stops;
 mod switches;
 mod switching;
 mod typed;
@@ -44,6 +49,7 @@ pub use dynamics::Dynamics;
 pub use effort::Effort;
 use events::Happened;
 pub use events::{Event, MOST_EVENTS};
+use gaps::Stopping;
 use noise::Progress;
 pub(crate) use noise::RISEN;
 pub use sampled::{Measured, Sampled, Threshold};
@@ -134,6 +140,7 @@ pub struct Adaptive<D: Dynamics, S: AdaptiveScheme = Dopri5> {
     effort: Effort,
     progress: Progress<D::Real>,
     switching: Switching,
+    stopping: Stopping,
     /// When clocks sampled last.
     sampled: Option<D::Real>,
     /// Events at the present time.
@@ -153,6 +160,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// asked for. The state stays that of the last good step.
     pub fn step(&mut self) -> Result<(), Error> {
         self.step_to(D::Real::from_f64(f64::INFINITY))?;
+        self.look_for_stops()?;
+        self.jump()?;
         self.sample(true);
         Ok(())
     }
@@ -169,7 +178,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         while self.now.t < last {
             self.step_to(last)?;
+            self.look_for_stops()?;
         }
+        self.jump()?;
         self.sample(false);
         Ok(())
     }
@@ -177,11 +188,14 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// A step that ends at `limit` at the latest, and at the first corner of the accelerations. Where it is
     /// cut short, the next one is not.
     fn step_to(&mut self, limit: D::Real) -> Result<(), Error> {
+        self.jump()?;
         self.sample(true);
+        self.look_at_rests()?;
         let (next, rejected) = (self.control.next, self.effort.rejected);
         let corner = self.next_corner();
         let limit = if corner < limit { corner } else { limit };
         self.step_within(limit)?;
+        self.stay();
         self.look_at_switches(self.effort.rejected != rejected)?;
         let is_cut = self.now.t >= limit && self.effort.rejected == rejected;
         if is_cut && self.control.next < next {

@@ -321,7 +321,7 @@ impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
                 let (q, v) = self.run.interpolate(at)?;
                 self.put(at, &q, &v);
                 if self.run.now.t <= at {
-                    self.watch(|run, watched| run.sample_and_look(false, watched));
+                    self.watch(|run, watched| run.sample_and_look(false, watched))?;
                 }
                 self.samples += 1;
                 self.pass_end();

@@ -110,10 +110,27 @@ impl fmt::Display for Error {
                 t = Shown(t),
                 step = Plain(step)
             ),
+            Self::Stops { what, stop } => write!(
+                f,
+                "{what} does not see the impacts of the stop `{stop}`; runs to a tolerance by an explicit pair do, as with \
+                 `--rtol 1e-8`"
+            ),
+            Self::Behind { t, stop, gap } => write!(
+                f,
+                "at t = {t} s this position is behind the stop `{stop}`: its gap is {} (SI units); a mechanism starts and rests \
+                 before its stops: check the values, and on which side of `<=` they are",
+                Plain(gap),
+                t = Shown(t)
+            ),
+            Self::Impact { t, stop } => write!(
+                f,
+                "at t = {t} s no impulses answer the impact at the stop `{stop}`: stops that contradict each other, or a \
+                 drive that pushes against one",
+                t = Shown(t)
+            ),
             Self::VelocityForce { coordinate } => write!(
                 f,
-                "the force along `{coordinate}`, or the rate of that state, depends on velocities or reactions, and RATTLE \
-                 takes forces of positions, time and inputs alone; leave dampers, friction and particles beside the \
+                "the force along, or the rate of `{coordinate}` depends on velocities or reactions, and RATTLE takes forces of positions, time and inputs alone; leave dampers, friction and particles beside the \
                  centre of a body out, or take another method"
             ),
             Self::ReducedStates { method } => write!(

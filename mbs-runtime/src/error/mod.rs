@@ -141,6 +141,29 @@ pub enum Error {
         /// The step in s.
         step: f64,
     },
+    /// Stops, for what sees no impact.
+    Stops {
+        /// What sees none.
+        what: &'static str,
+        /// The first stop.
+        stop: &'static str,
+    },
+    /// A state behind a stop.
+    Behind {
+        /// The time in s.
+        t: f64,
+        /// The stop.
+        stop: &'static str,
+        /// Its gap in SI units.
+        gap: f64,
+    },
+    /// An impact that no impulses answer.
+    Impact {
+        /// The time in s.
+        t: f64,
+        /// One of the stops that are hit.
+        stop: &'static str,
+    },
     /// A force that depends on velocities or reactions, for a method that takes none.
     VelocityForce {
         /// A coordinate along which it acts.

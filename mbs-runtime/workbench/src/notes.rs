@@ -14,7 +14,7 @@ pub(crate) fn notes(model: &dyn Model, settings: &Settings) -> Vec<String> {
     let Settings { other, scheme, .. } = settings;
     let declared = model.scheme();
     let taken = other.map_or(scheme.unwrap_or(declared).word, OtherMethod::word);
-    let is_adaptive = settings.tolerances_of_run().is_some();
+    let is_adaptive = settings.tolerances_of_run(model.info()).is_some();
     let mut notes = Vec::new();
     if let ([event, ..], false) = (model.info().events, is_adaptive) {
         notes.push(format!(

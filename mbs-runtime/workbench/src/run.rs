@@ -252,7 +252,7 @@ impl Recorder {
     /// Advances by a step and notes the events on the way; whether one of them ends the run.
     fn step(&mut self, run: &mut dyn System) -> Result<bool, mbs_runtime::Error> {
         while let Some(event) = run.step_to_event()? {
-            let declared = self.info.events.get(event.index).map(|event| event.name.to_owned());
+            let declared = self.info.event_name(event.index).map(str::to_owned);
             let ending = self.until.as_ref().map(|until| until.ending);
             let is_end = declared.is_none() || ending == Some(Ending::Event(event.index));
             let condition = || self.until.as_ref().map(|until| until.text.clone());

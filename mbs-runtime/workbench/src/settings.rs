@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mbs_analysis::InputTable;
 use mbs_runtime::{
-    COMPOSITIONS, Composition, Explicit, IMPLICIT, Implicit, Stabilization, TRBDF2, Tableau, Threshold,
+    COMPOSITIONS, Composition, Explicit, IMPLICIT, Implicit, Info, Stabilization, TRBDF2, Tableau, Threshold,
     Tolerances,
 };
 
@@ -126,9 +126,11 @@ impl Default for Settings {
 
 impl Settings {
     /// The tolerances of a run: those that are given, and the usual ones where the method takes no constant steps,
-    /// or a condition ends the run. Nothing of a run with a constant step.
-    pub(crate) fn tolerances_of_run(&self) -> Option<Tolerances> {
-        let is_adaptive = self.until.is_some() || self.other.is_some_and(|other| !other.is_constant());
+    /// a condition ends the run, or the mechanism has stops. Nothing of a run with a constant step.
+    pub(crate) fn tolerances_of_run(&self, info: &Info) -> Option<Tolerances> {
+        let hits = !info.stops.is_empty() && self.other.is_none();
+        let is_adaptive =
+            self.until.is_some() || hits || self.other.is_some_and(|other| !other.is_constant());
         self.tolerances.or(is_adaptive.then(Tolerances::default))
     }
 }

@@ -1,7 +1,7 @@
 //! The start that settings mean for a mechanism.
 
 use mbs_runtime::equations::Grid;
-use mbs_runtime::{DOPRI5, Explicit, Quantity, Stabilization, Tableau, Tolerances};
+use mbs_runtime::{DOPRI5, Explicit, Info, Quantity, Stabilization, Tableau, Tolerances};
 
 use crate::{Error, Model, OtherMethod, Settings, Signals, Start, Until, start_state};
 
@@ -21,7 +21,7 @@ impl Start {
         if let Some(other) = settings.other {
             has_no_other(other, settings)?;
         }
-        let method = method(model.scheme(), settings)?;
+        let method = method(info, model.scheme(), settings)?;
         let [alpha, beta] = method.deadbeat(step);
         let start = Self {
             parameters,
@@ -40,7 +40,7 @@ impl Start {
             beta: settings.beta.unwrap_or(beta),
             step,
             // a longer step would leave the run
-            tolerances: settings.tolerances_of_run().map(|tolerances| Tolerances {
+            tolerances: settings.tolerances_of_run(info).map(|tolerances| Tolerances {
                 max_step: tolerances.max_step.min(settings.end.max(step)),
                 ..tolerances
             }),
@@ -67,7 +67,7 @@ impl Start {
 /// the clocks.
 fn step(model: &dyn Model, settings: &Settings, parameters: &[f64]) -> Result<f64, Error> {
     let has_clocks = model.info().sampling.clocks > 0;
-    if !(has_clocks && settings.fits_clocks && settings.tolerances_of_run().is_none()) {
+    if !(has_clocks && settings.fits_clocks && settings.tolerances_of_run(model.info()).is_none()) {
         return Ok(settings.step);
     }
     let grid = Grid {
@@ -108,9 +108,9 @@ fn has_no_other(method: OtherMethod, settings: &Settings) -> Result<(), Error> {
 }
 
 /// The method that settings ask for, of a mechanism with this scheme.
-fn method(declared: &'static Tableau, settings: &Settings) -> Result<Explicit, Error> {
+fn method(info: &Info, declared: &'static Tableau, settings: &Settings) -> Result<Explicit, Error> {
     let Settings { scheme, stabilization, alpha, beta, .. } = settings;
-    let is_adaptive = settings.tolerances_of_run().is_some();
+    let is_adaptive = settings.tolerances_of_run(info).is_some();
     let (tableau, stabilization) = match (is_adaptive, stabilization) {
         (true, Some(Stabilization::Held | Stabilization::PerStage)) => {
             let reason = "a run to a tolerance keeps the constraints by projection; leave the feedback out, \

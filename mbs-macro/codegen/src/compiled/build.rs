@@ -3,7 +3,7 @@
 use super::derivation::readable;
 use super::{
     Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link, Pivot,
-    Sampling, Sketch, SketchBody, Written,
+    Sampling, Sketch, SketchBody, Stop, Written,
 };
 use crate::derive::Equations;
 use crate::model::{self, Block, Direction, Model};
@@ -41,6 +41,7 @@ impl Compiled {
                 .map(|it| (readable(&model.arena, it.value), it.knots.clone()))
                 .collect(),
             sampling: sampling(&model),
+            stops: model.stops.iter().map(|stop| stop_of(&model, stop)).collect(),
             jacobian: plan.phi_q_places.clone(),
             masses: plan.mass_places.clone(),
             pivots: pivots(&model, &plan.pivot_names),
@@ -88,6 +89,11 @@ fn places(model: &Model) -> Vec<usize> {
         _ => None,
     });
     neighbours.collect()
+}
+
+fn stop_of(model: &Model, stop: &model::Stop) -> Stop {
+    let formula = readable(&model.arena, stop.gap);
+    Stop { quantity: stop.quantity.clone(), memory: stop.memory, formula, span: stop.span }
 }
 
 impl From<model::Event> for Event {

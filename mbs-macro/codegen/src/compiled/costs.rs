@@ -27,7 +27,10 @@ impl Compiled {
 
     /// The costs of the functions that people ask for.
     pub fn counts(&self) -> Vec<Count> {
-        self.functions().filter(|it| it.is(Property::Counted)).map(|function| self.count(function)).collect()
+        let at_stops = [FunctionId::Gaps, FunctionId::Contacts];
+        let of_stops = at_stops.into_iter().filter(|_| !self.stops.is_empty());
+        let counted = self.functions().filter(|it| it.is(Property::Counted));
+        counted.chain(of_stops).map(|function| self.count(function)).collect()
     }
 
     /// The cost of a function.

@@ -122,6 +122,8 @@ pub struct Compiled {
     pub switches: Vec<(String, Knots)>,
     /// The clocks and the memories that they set.
     pub sampling: Sampling,
+    /// The ends of the way.
+    pub stops: Vec<Stop>,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
     /// Row and column of every result of [`FunctionId::Mass`], each pair of coordinates once.
@@ -186,6 +188,18 @@ pub struct Sampling {
     pub clocks: usize,
     /// The clock and the memory, by its place among the inputs, of every result of [`FunctionId::Samples`].
     pub samples: Vec<[usize; 2]>,
+}
+
+/// An end of the way; see [`FunctionId::Gaps`].
+pub struct Stop {
+    /// Its name, and the unit of its gap.
+    pub quantity: Quantity,
+    /// The place among the inputs of the memory that is 1 while it is rested on; that of its impulse is behind it.
+    pub memory: usize,
+    /// The gap, unless it is too long to read.
+    pub formula: String,
+    /// Where it is declared.
+    pub span: Span,
 }
 
 /// A change of sign of a value that [`FunctionId::Events`] gives.
@@ -350,6 +364,13 @@ impl Compiled {
         self.states.len() < self.coordinates.len()
     }
 
+    /// The number of results of [`FunctionId::Contacts`].
+    fn contact_count(&self) -> usize {
+        let stops = self.stops.len();
+        let response = 2 * self.coordinates.len() + self.constraints.len() + stops;
+        if stops == 0 { 0 } else { stops * response + 1 }
+    }
+
     /// The length of a kind of results.
     pub fn length(&self, result: Results) -> usize {
         match result {
@@ -368,6 +389,9 @@ impl Compiled {
             Results::Switches => self.switches.len(),
             Results::Clocks => 2 * self.sampling.clocks,
             Results::Samples => self.sampling.samples.len(),
+            Results::Stops => 2 * self.stops.len(),
+            Results::Gaps => 3 * self.stops.len(),
+            Results::Contacts => self.contact_count(),
             Results::Points => 2 * self.sketch.points.len(),
             Results::Scalar | Results::Growth => 1,
         }

@@ -47,6 +47,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Energy { name, .. }
         | ItemKind::Particle { name, .. }
         | ItemKind::Event { name, .. }
+        | ItemKind::Stop { name, .. }
         | ItemKind::Output { name, .. } => plain(name),
         ItemKind::Element(element) => plain(&element.name),
         ItemKind::Table(table) => vec![format!("{}()", table.name), table.name.to_string()],
@@ -155,6 +156,11 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         ItemKind::Body { name, coordinates, properties } => {
             visit(Mention::Name(name));
             coordinates.iter_mut().for_each(|coordinate| visit(Mention::Name(&mut coordinate.name)));
+            properties.iter_mut().for_each(|property| in_formula(&mut property.value, visit));
+        }
+        ItemKind::Stop { name, condition, properties } => {
+            visit(Mention::Name(name));
+            in_condition(condition, visit);
             properties.iter_mut().for_each(|property| in_formula(&mut property.value, visit));
         }
         ItemKind::Constraint { name, left, right, .. } | ItemKind::Event { name, left, right, .. } => {

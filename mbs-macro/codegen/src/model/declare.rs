@@ -57,9 +57,13 @@ impl<'a> Resolver<'a> {
 
     /// Memories, which stand behind all inputs.
     pub(super) fn declare_memory(&mut self, item: &'a Item) {
-        if let ItemKind::Memory { name, unit, .. } = &item.kind {
-            self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
-            self.declare_input(name, unit, &item.doc);
+        match &item.kind {
+            ItemKind::Memory { name, unit, .. } => {
+                self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
+                self.declare_input(name, unit, &item.doc);
+            }
+            ItemKind::Stop { name, .. } => self.declare_stop(name),
+            _ => {}
         }
     }
 

@@ -177,14 +177,19 @@ impl Scope<'_> {
         self.allowed(Typed { expr, dimension }, name, place, errors)
     }
 
+    /// The symbol with a meaning.
+    pub(super) fn symbol_of(&self, wanted: Meaning) -> Option<Symbol> {
+        let at = self.meanings.iter().position(|&meaning| meaning == wanted);
+        at.and_then(|at| self.arena.symbol_at(at))
+    }
+
     fn successor(&self, symbol: Symbol) -> Symbol {
         let wanted = match self.meaning(symbol) {
             Meaning::Coordinate(at) => Meaning::Velocity(at),
             Meaning::Velocity(at) => Meaning::Acceleration(at),
             other => other,
         };
-        let at = self.meanings.iter().position(|&meaning| meaning == wanted);
-        at.and_then(|at| self.arena.symbol_at(at)).unwrap_or(symbol)
+        self.symbol_of(wanted).unwrap_or(symbol)
     }
 
     /// `lambda(row)` is the multiplier, `effort(drive)` = −λ what a drive

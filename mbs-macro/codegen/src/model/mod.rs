@@ -32,6 +32,7 @@ mod solver;
 mod starts;
 mod statements;
 mod states;
+mod stops;
 mod surfaces;
 mod tables;
 mod warnings;
@@ -94,6 +95,7 @@ pub struct Model {
     pub closes: Option<Closes>,
     pub outputs: Vec<Output>,
     pub events: Vec<Event>,
+    pub stops: Vec<Stop>,
     pub sketch: Sketch,
     /// Warnings about parts that compile and are likely mistakes.
     pub warnings: Vec<Diagnostic>,
@@ -299,6 +301,23 @@ pub struct Clock {
     pub offset: Expr,
     /// The memories by their place among the inputs, each once, with their values in terms of those before the sample.
     pub sets: Vec<(usize, Expr)>,
+}
+
+/// An end of the way: its gap is 0 there, and never negative.
+pub struct Stop {
+    /// The name and the unit of the gap.
+    pub quantity: Quantity,
+    pub gap: Expr,
+    pub rate: Expr,
+    /// The second derivative, of the accelerations, too.
+    pub acceleration: Expr,
+    /// ∂g/∂q for every coordinate q along which it is not 0.
+    pub slopes: Vec<(usize, Expr)>,
+    pub restitution: Expr,
+    pub settle: Expr,
+    /// The place among the inputs of the memory that is 1 while it is rested on; that of its impulse is behind it.
+    pub memory: usize,
+    pub span: Span,
 }
 
 /// A change of sign of a value.

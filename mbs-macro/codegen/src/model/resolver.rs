@@ -16,7 +16,7 @@ use super::known::{Definition, Energies, State, Value};
 use super::names::Scope;
 use super::{
     Block, Body, Check, Clock, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output,
-    ReactiveLoad, Solver, Start,
+    ReactiveLoad, Solver, Start, Stop,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
 use crate::mechanics::{Inertia, Load, Particle};
@@ -98,6 +98,7 @@ pub(super) struct Resolver<'a> {
     pub outputs: Vec<Output>,
     pub output_names: HashMap<String, Span>,
     pub events: Vec<Event>,
+    pub stops: Vec<Stop>,
     pub event_names: HashMap<String, Span>,
 }
 
@@ -139,6 +140,7 @@ impl<'a> Resolver<'a> {
             outputs: Vec::new(),
             output_names: HashMap::default(),
             events: Vec::new(),
+            stops: Vec::new(),
             event_names: HashMap::default(),
         }
     }
@@ -214,6 +216,7 @@ impl<'a> Resolver<'a> {
         }
         self.check_rates();
         self.check_solver();
+        self.check_stops();
         if self.dof.is_none() {
             let lines = self.coordinates.iter().filter(|coordinate| !coordinate.is_own()).count();
             let left = lines as i64 - self.row_count as i64;
@@ -266,6 +269,7 @@ impl<'a> Resolver<'a> {
             closes: self.closes,
             outputs: self.outputs,
             events: self.events,
+            stops: self.stops,
             sketch,
             warnings,
         };

@@ -112,7 +112,7 @@ impl Resolver<'_> {
         let message = match self.scope.values.get(&text) {
             Some(Value::Refused(_)) => return None,
             Some(Value::Symbol { symbol, .. }) => match self.scope.meaning(*symbol) {
-                Meaning::Input(at) if at >= first => return Some((at, *symbol)),
+                Meaning::Input(at) if at >= first => return self.settable(name, at, *symbol),
                 Meaning::Input(_) => format!("`{text}` is an input, which the program sets"),
                 Meaning::Parameter(_) => format!("`{text}` is a parameter, which stays as it is"),
                 _ => format!("`{text}` is integrated, and no clock sets it"),
@@ -131,6 +131,17 @@ impl Resolver<'_> {
             None if memories.is_empty() => "declare a memory with its unit: `memory u [V] = 0;`".to_owned(),
             None => format!("the memories are {}", listing(names)),
         };
+        self.errors.push(Diagnostic::new(name.span(), message).help(help));
+        None
+    }
+
+    /// A memory that no stop sets.
+    fn settable(&mut self, name: &Ident, memory: usize, symbol: Symbol) -> Option<(usize, Symbol)> {
+        if self.stops.iter().all(|stop| stop.memory != memory && stop.memory + 1 != memory) {
+            return Some((memory, symbol));
+        }
+        let message = format!("`{name}` is set at impacts, and no clock sets it");
+        let help = "let a memory of its own depend on it: `set held = …;`";
         self.errors.push(Diagnostic::new(name.span(), message).help(help));
         None
     }

@@ -23,6 +23,9 @@ impl<'a> Resolver<'a> {
         if let ItemKind::Joint(joint) = &item.kind {
             return self.resolve_joint(joint, &item.doc);
         }
+        if let ItemKind::Stop { name, condition, properties } = &item.kind {
+            return self.resolve_stop(name, condition, properties);
+        }
         let ItemKind::Constraint { name, role, left, equals, right } = &item.kind else { return };
         if *role == Role::Rate {
             return self.resolve_rate_row(name, (left, *equals, right), &item.doc);

@@ -53,6 +53,7 @@ pub fn roots(
     let growths = solver.factorization.pivots.iter().map(|pivot| pivot.growth);
     let samples = model.clocks.iter().flat_map(|clock| clock.sets.iter().map(|(_, value)| *value));
     let samples: Vec<Expr> = samples.collect();
+    let contacts = solver.contacts(model, problem);
     for (function, values) in [
         (FunctionId::Phi, equations.phi.clone()),
         (FunctionId::PhiDot, equations.phi_dot.clone()),
@@ -75,6 +76,12 @@ pub fn roots(
         (FunctionId::Events, model.events.iter().map(|event| event.value).collect()),
         (FunctionId::Clocks, model.clocks.iter().flat_map(|clock| [clock.period, clock.offset]).collect()),
         (FunctionId::Samples, samples),
+        (FunctionId::Stops, model.stops.iter().flat_map(|stop| [stop.restitution, stop.settle]).collect()),
+        (
+            FunctionId::Gaps,
+            model.stops.iter().flat_map(|stop| [stop.gap, stop.rate, stop.acceleration]).collect(),
+        ),
+        (FunctionId::Contacts, contacts),
         (FunctionId::Conditions, requirements(model)),
         (FunctionId::Start, declared_start(model)),
         (FunctionId::Points, model.sketch.places(&mut model.arena)),

@@ -266,6 +266,37 @@ impl Solver {
         roots
     }
 
+    /// The response to a unit impulse along the gap of every stop, of velocities and multipliers, and ∂g/∂q; how impulses
+    /// change the rates of all gaps, and the growth; nothing without stops.
+    pub fn contacts(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
+        let Problem { equations, rows, .. } = problem;
+        if model.stops.is_empty() {
+            return Vec::new();
+        }
+        let gaps: Vec<_> = model.stops.iter().map(|stop| stop.slopes.clone()).collect();
+        let (mut roots, mut mobility) = (Vec::new(), Vec::new());
+        for gap in &gaps {
+            let rhs = gap.iter().map(|&(at, slope)| (Unknown::Coordinate(at), slope)).collect();
+            let solution = self.factorization.solve(&mut model.arena, &rhs);
+            let arena = &mut model.arena;
+            let zero = arena.zero();
+            let response = |at| solution.get(&Unknown::Coordinate(at)).copied().unwrap_or(zero);
+            roots.extend((0..model.coordinates.len()).map(response));
+            let factorization = &self.factorization;
+            roots.extend(minimum_norm::multipliers(arena, equations, rows, factorization, &solution));
+            let slopes: BTreeMap<usize, Expr> = gap.iter().copied().collect();
+            roots.extend((0..model.coordinates.len()).map(|at| slopes.get(&at).copied().unwrap_or(zero)));
+            for other in &gaps {
+                let terms = other.iter().map(|&(at, slope)| arena.mul(slope, response(at)));
+                let terms: Vec<Expr> = terms.collect();
+                mobility.push(terms.into_iter().fold(zero, |sum, term| arena.add(sum, term)));
+            }
+        }
+        roots.extend(mobility);
+        roots.push(self.growth(model));
+        roots
+    }
+
     /// q̈ and λ with Q above and γ + `feedback` below.
     fn solution(
         &self,

@@ -124,19 +124,19 @@ pub(super) fn parameter(input: ParseStream<'_>) -> Result<ItemKind> {
     equals(input)?;
     let value = input.parse()?;
     let condition = match input.parse::<Option<Token![where]>>()? {
-        Some(_) => Some(condition(input)?),
+        Some(_) => Some(condition(input, "where l1 > 0")?),
         None => None,
     };
     semicolon(input)?;
     Ok(ItemKind::Parameter { name, value, condition })
 }
 
-fn condition(input: ParseStream<'_>) -> Result<Condition> {
+fn condition(input: ParseStream<'_>, example: &str) -> Result<Condition> {
     let ahead = input.fork();
     let left = input.parse()?;
     let comparison_span = input.span();
     let Some(comparison) = comparison(input)? else {
-        return Err(input.error("one of `<`, `<=`, `>`, `>=` is expected here, as in `where l1 > 0`"));
+        return Err(input.error(format!("one of `<`, `<=`, `>`, `>=` is expected here, as in `{example}`")));
     };
     let right = input.parse()?;
     let mut text = TokenStream::new();
@@ -144,7 +144,7 @@ fn condition(input: ParseStream<'_>) -> Result<Condition> {
         text.extend([ahead.parse::<TokenTree>()?]);
     }
     let left_text = text.to_string();
-    while !ahead.is_empty() && !ahead.peek(Token![;]) {
+    while !(ahead.is_empty() || ahead.peek(Token![;]) || ahead.peek(token::Brace)) {
         text.extend([ahead.parse::<TokenTree>()?]);
     }
     let text = text.to_string();
@@ -153,7 +153,7 @@ fn condition(input: ParseStream<'_>) -> Result<Condition> {
 
 /// `require crank < rod;`
 pub(super) fn require(input: ParseStream<'_>) -> Result<ItemKind> {
-    let condition = condition(input)?;
+    let condition = condition(input, "require l1 < l2;")?;
     semicolon(input)?;
     Ok(ItemKind::Require { of: None, condition })
 }
@@ -353,6 +353,18 @@ pub(super) fn event(input: ParseStream<'_>) -> Result<ItemKind> {
     let crossing = if input.peek(Token![;]) { Crossing::Either } else { crossing(input)? };
     semicolon(input)?;
     Ok(ItemKind::Event { name, left, equals, right, crossing })
+}
+
+/// `stop end: x <= 0.2 [m] { restitution = 0.4; }`
+pub(super) fn stop(input: ParseStream<'_>) -> Result<ItemKind> {
+    const EXAMPLE: &str = "stop end: x <= 0.2 [m] { restitution = 0.4; }";
+    let name = name(input)?;
+    input.parse::<Token![:]>().map_err(|error| {
+        Error::new(error.span(), format!("a name and `:` stand before a stop, as in `{EXAMPLE}`"))
+    })?;
+    let condition = condition(input, EXAMPLE)?;
+    let properties = properties(input, EXAMPLE)?;
+    Ok(ItemKind::Stop { name, condition, properties })
 }
 
 fn crossing(input: ParseStream<'_>) -> Result<Crossing> {

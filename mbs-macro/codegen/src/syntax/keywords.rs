@@ -81,6 +81,7 @@ pub const STATEMENTS: &[Statement] = &[
     ("start", "start { theta = 30 [deg]; guess x = l; }", "where the motion starts", |input, _| items::start(input)),
     ("output", "output power [W] = u*der(theta);", "a value to be recorded", |input, _| items::output(input)),
     ("event", "event hit: x = 0.2 [m] rising;", "a moment that a run finds", |input, _| items::event(input)),
+    ("stop", "stop end: x <= 0.2 [m] { restitution = 0.4; }", "an end of the way, which what moves hits and rests on", |input, _| items::stop(input)),
     ("require", "require l1 < l2;", "a condition between parameters", |input, _| items::require(input)),
     ("instance", "instance left: Leg { length = 0.5 [m]; }", "a part that an assembly describes", |input, _| items::instance(input)),
 ];
@@ -114,7 +115,7 @@ pub fn keywords() -> Vec<Keyword> {
 const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["hinge", "pin", "pivot", "bearing", "rotational", "revolute_joint"], "two places that coincide are a `revolute` joint: `revolute pin (crank.tip, rod.base);`"),
     (&["joint"], "a joint begins with its kind: `revolute`, `prismatic`, `fixed`, `point_on_line`, `distance`, `gear`, `belt`, `rack`, `rolling` or `cam`"),
-    (&["contact", "collision", "stop", "bumper"], "what rolls is a `rolling` joint, what follows a curve a `cam`; an end stop is a force: `force stop on x = -k*ramp(x - gap);`, between two points a `strut`"),
+    (&["contact", "collision", "impact", "limit_stop", "bumper"], "what rolls is a `rolling` joint, what follows a curve a `cam`; a hard end is a `stop`: `stop end: x <= 0.2 [m] { restitution = 0.4; }`, a soft one a force: `force end on x = -k*ramp(x - gap);`, between two points a `strut`"),
     (&["damper", "dashpot", "shock_absorber"], "a damper is a spring without stiffness: `spring name (a.p, b.q) { damping = c; }`, or `torsion_spring` between angles"),
     (&["torsional_spring", "rotational_spring", "spiral_spring"], "a spring between angles is a `torsion_spring`"),
     (&["slider", "guide", "rail", "translational", "slot", "groove"], "what slides without turning is a `prismatic` joint, a pin in a slot a `pin_slot`: `prismatic name (block, ground) along (1, 0);`"),

@@ -120,6 +120,8 @@ pub enum ItemKind {
     Element(Box<Element>),
     /// `start { … }`
     Start { entries: Vec<StartEntry> },
+    /// `stop end: x <= 0.2 [m] { restitution = 0.4; }`
+    Stop { name: Ident, condition: Condition, properties: Vec<Property> },
     /// `event hit: x = 0.2 [m] rising;`
     Event { name: Ident, left: Formula, equals: Span, right: Formula, crossing: Crossing },
     /// `output name [unit] = …;`

@@ -17,6 +17,7 @@ use self::stiffness::Stiffness;
 use crate::Error;
 use crate::linearization::{Ports, linearize};
 use crate::point::OperatingPoint;
+use crate::stops::refuse_behind;
 use crate::tangent::Rest;
 
 /// The method by which an equilibrium is looked for.
@@ -299,6 +300,7 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
         iterations,
         inputs,
     };
+    refuse_behind(mechanism, found.t, &found.q)?;
     if info.lines < info.coordinates.len() {
         found.rates = rates(mechanism, &found).unwrap_or_default();
     }

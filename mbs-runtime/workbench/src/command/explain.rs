@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use clap::Args;
-use mbs_runtime::{Derivation, Info, Knots, Switch};
+use mbs_runtime::{DeclaredStop, Derivation, Info, Knots, Switch};
 
 use super::options::Named;
 use crate::StartValue;
@@ -40,7 +40,11 @@ impl Arguments {
             let declared = Start { kind: StartKind::Declared, ..Start::of(model, &model.defaults())? };
             let run = model.start(&declared)?;
             let switches = switches(run.described().switching());
-            plain(info, derivation) + &switches + &start(&model.start_values()?, info) + &inputs(info)
+            plain(info, derivation)
+                + &switches
+                + &stops(info)
+                + &start(&model.start_values()?, info)
+                + &inputs(info)
         };
         say(text.trim_end())
     }
@@ -138,6 +142,20 @@ fn switches(switching: &[Switch]) -> String {
         table.row([*name, &knots]);
     }
     section(&mut text, "Switches: laws bend or jump where these values pass", &table);
+    text
+}
+
+/// The ends of the way; nothing without one.
+fn stops(info: &Info) -> String {
+    let mut text = String::new();
+    if info.stops.is_empty() {
+        return text;
+    }
+    let mut table = Table::new(["", "gap", "unit"]);
+    for DeclaredStop { name, formula, unit, .. } in info.stops {
+        table.row([*name, *formula, *unit]);
+    }
+    section(&mut text, "Stops: these gaps are never negative; runs end a step where one closes", &table);
     text
 }
 

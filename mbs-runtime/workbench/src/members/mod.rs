@@ -80,7 +80,7 @@ impl dyn Model + '_ {
         // In lanes, inputs are constant, and all take the same step.
         let lanes = self.in_lanes().filter(|lanes| lanes.can_take(declared.method));
         let is_alike =
-            settings.signals.is_none() && settings.tolerances.is_none() && settings.other.is_none();
+            settings.signals.is_none() && declared.tolerances.is_none() && settings.other.is_none();
         if let Some(lanes) = lanes.filter(|_| is_alike) {
             return in_batches(count, lanes.width() * rayon::current_num_threads(), |members| {
                 let first = members.start;

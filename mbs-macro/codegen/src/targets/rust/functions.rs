@@ -5,6 +5,7 @@ use quote::quote;
 
 use super::access::Access;
 use super::body::{Body, named};
+use super::contacts;
 use super::derivation;
 use super::docs;
 use super::info;
@@ -136,6 +137,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
     let (next_corner, (switches, switch_values)) =
         (moments::next_corner(compiled, names), moments::switches(compiled, names));
     let samples = moments::samples(compiled, names);
+    let stops = contacts::stops(compiled, names);
     let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
     let states = states(compiled, names, &fields);
     let kernels = kernels(compiled, names, &fields, are_on_arrays);
@@ -212,6 +214,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
             #next_corner
             #switch_values
             #samples
+            #stops
             fn points(&self, t: T, q: &#q) -> [[T; 2]; #points] { #places }
         }
     }

@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::names::Names;
-use crate::compiled::{Compiled, Count, Crossing, Event, Pivot, Quantity, Sampling};
+use crate::compiled::{Compiled, Count, Crossing, Event, Pivot, Quantity, Sampling, Stop};
 
 pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
@@ -50,6 +50,11 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         }
     });
     let sampling = sampling(&compiled.sampling, runtime);
+    let stops = compiled.stops.iter().map(|Stop { quantity, memory, formula, .. }| {
+        let Quantity { name, doc, unit, dimension: of, .. } = quantity;
+        let (of, memory) = (dimension(*of, runtime), Literal::usize_unsuffixed(*memory));
+        quote!(#runtime::DeclaredStop { name: #name, doc: #doc, unit: #unit, dimension: #of, memory: #memory, formula: #formula })
+    });
     let start_pivots = pivots(&compiled.start_pivots, runtime);
     let pivots = pivots(&compiled.pivots, runtime);
     let functions = compiled.counts().into_iter().map(|function| {
@@ -75,7 +80,8 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             #name, #doc, #dof,
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], #lines, &[#(#outputs),*],
             &[#(#events),*], &[#(#constraints),*], &[#(#states),*], &[#(#redundant),*],
-            &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, #sampling, &[#(#functions),*],
+            &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, #sampling, &[#(#stops),*],
+            &[#(#functions),*],
         )
     }
 }

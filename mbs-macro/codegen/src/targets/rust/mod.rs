@@ -4,6 +4,7 @@
 mod access;
 mod body;
 mod construction;
+mod contacts;
 mod derivation;
 mod docs;
 mod functions;

@@ -27,6 +27,7 @@ use wasm_encoder::{
     GlobalSection, GlobalType, ImportSection, MemorySection, MemoryType, Module, TypeSection, ValType,
 };
 
+use super::without_stops;
 use crate::compiled::Compiled;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use memory::Memory;
@@ -76,6 +77,7 @@ pub struct Wasm {
 /// # Errors
 /// A program that reads what its function is not given, which is a mistake of the compiler.
 pub fn wasm(compiled: &Compiled) -> Result<Wasm, Diagnostics> {
+    without_stops(compiled, "a page")?;
     let internal = |fault| Diagnostic::internal(compiled.written.name.span(), fault);
     let module = module(compiled).map_err(internal)?;
     Ok(Wasm { module, tables: tables::tables(compiled) })

@@ -53,7 +53,10 @@ impl Point<'_> {
         self.agree(FunctionId::Clocks, &times)?;
         let samples: Vec<_> =
             clocks.flat_map(|it| it.sets.iter().map(|(_, value)| self.value(*value))).collect();
-        self.agree(FunctionId::Samples, &samples)
+        self.agree(FunctionId::Samples, &samples)?;
+        let stops = model.stops.iter();
+        let gaps = stops.flat_map(|stop| [stop.gap, stop.rate, stop.acceleration].map(|x| self.value(x)));
+        self.agree(FunctionId::Gaps, &gaps.collect::<Vec<_>>())
     }
 
     /// The entries of M; those that have no place are 0.

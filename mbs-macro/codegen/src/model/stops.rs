@@ -1,0 +1,244 @@
+//! `stop end: x <= 0.2 [m] { restitution = 0.4; }`: ends of the way, which what moves hits and rests on.
+//!
+//! A stop is a gap g(q, t) that is never negative. It has no row among the constraints: while it is open, nothing is
+//! computed of it. A run that finds it closed asks for the response of the mechanism to an impulse along ∂g/∂q.
+//! Whether it is rested on, and the impulse that it has given, are memories, which every path has.
+
+use std::collections::BTreeMap;
+
+use mbs_symbolic::units::{Dimension, Unit};
+use mbs_symbolic::{Algebra, Expr, Node, Number, Pieces, Stage};
+use proc_macro2::Ident;
+
+use super::declare::quantity;
+use super::known::Value;
+use super::names::Place;
+use super::resolver::Resolver;
+use super::{Meaning, Requirement, Stop};
+use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::quantity::{Comparison, Quantity, Setting};
+use crate::syntax::{Condition, Property};
+
+/// A run looks at the stops that are closed together in all combinations that its pivots lead through.
+const MOST_STOPS: usize = 16;
+/// A run watches 64 values: events, one condition that ends it, and stops.
+const MOST_WATCHED: usize = 63;
+
+const RESTITUTION: &str = "restitution";
+const SETTLE: &str = "settle";
+/// The share of the longest flight below which a stop is not left again, where none is declared.
+const SETTLED: f64 = 1e-6;
+
+impl Resolver<'_> {
+    /// The memories of a stop: whether it is rested on, and the impulse that it has given so far.
+    pub(super) fn declare_stop(&mut self, name: &Ident) {
+        self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
+        let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, Meaning::Input(self.inputs.len()));
+        let value = Value::Symbol { symbol, dimension: Dimension::NONE, span: name.span() };
+        self.scope.declare(name, value, &mut self.errors);
+        self.stop_memory(quantity(name, "1 while it is rested on", "", Unit::ONE));
+        let meaning = Meaning::Input(self.inputs.len());
+        let impulse = impulse_of(name);
+        self.scope.symbol(&impulse.to_string(), Stage::Variable, meaning);
+        self.stop_memory(quantity(&impulse, "the sum of the impulses of its impacts", "", Unit::ONE));
+    }
+
+    fn stop_memory(&mut self, quantity: Quantity) {
+        self.inputs.push(Setting { quantity, value: 0.0 });
+    }
+
+    pub(super) fn resolve_stop(&mut self, name: &Ident, condition: &Condition, properties: &[Property]) {
+        let Some((gap, dimension)) = self.gap(name, condition) else { return };
+        let memory = self.inputs.iter().position(|input| *name == input.quantity.name);
+        let is_first = self.stops.iter().all(|stop| *name != stop.quantity.name);
+        let Some(memory) = memory.filter(|_| is_first) else { return };
+        self.know_impulse(name, memory + 1, dimension);
+        let values = self.stop_properties(name, properties);
+        let Some([restitution, settle]) = values else { return };
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let motion = &self.scope.motion;
+        let scalar = algebra.scalar(gap);
+        let slopes = motion.slopes(scalar);
+        let rate = motion.rate(scalar);
+        let curved = motion.rate(rate);
+        let (rate, curved) = (rate.expr(), curved.expr());
+        let mut acceleration = curved;
+        for &(at, slope) in &slopes {
+            let Some(of_coordinate) = self.scope.symbol_of(Meaning::Acceleration(at)) else { continue };
+            let arena = &mut self.scope.arena;
+            let of_coordinate = arena.variable(of_coordinate);
+            let term = arena.mul(slope, of_coordinate);
+            acceleration = arena.add(acceleration, term);
+        }
+        let unit = Unit { scale: Number::ONE, dimension };
+        let quantity = quantity(name, "", &dimension.si_unit(), unit);
+        let span = name.span();
+        self.stops.push(Stop {
+            quantity,
+            gap,
+            rate,
+            acceleration,
+            slopes,
+            restitution,
+            settle,
+            memory,
+            span,
+        });
+    }
+
+    /// The gap, which is 0 where the stop is touched, and its dimension.
+    fn gap(&mut self, name: &Ident, condition: &Condition) -> Option<(Expr, Dimension)> {
+        let Condition { left, comparison, comparison_span, right, .. } = condition;
+        let [left, right] =
+            [left, right].map(|side| self.scope.formula(side, Place::Constraint, &mut self.errors));
+        let (left, right) = (left?, right?);
+        let (smaller, larger) = match comparison {
+            Comparison::LessOrEqual => (left, right),
+            Comparison::GreaterOrEqual => (right, left),
+            Comparison::Less | Comparison::Greater => {
+                let message = format!("what rests on `{name}` is at its end");
+                let help = "write `<=` or `>=`";
+                self.errors.push(Diagnostic::new(*comparison_span, message).help(help));
+                return None;
+            }
+        };
+        let difference = self.difference(larger, smaller, *comparison_span);
+        let (gap, dimension) = self.errors.take(difference)?;
+        if self.coordinates_in(gap) == 0 {
+            let message = format!("`{name}` does not stop anything: no coordinate is left in it");
+            let help = "write where a motion ends, as in `x <= 0.2 [m]` or `distance(a.p, b.q) >= r`";
+            self.errors.push(Diagnostic::new(name.span(), message).help(help));
+            return None;
+        }
+        if self.bends(gap) {
+            let message = format!("`{name}` has a corner: an impact there has no direction");
+            let help = "write a stop for each side of it, or take a `cubic` table";
+            self.errors.push(Diagnostic::new(name.span(), message).help(help));
+            return None;
+        }
+        if self.stops.len() == MOST_STOPS || self.stops.len() + self.events.len() >= MOST_WATCHED {
+            let message = format!("`{name}` is one stop too many: a mechanism has at most {MOST_STOPS}");
+            let help = "leave some out, or make soft ones of them: `force end on x = -k*ramp(x - gap);`";
+            self.errors.push(Diagnostic::new(name.span(), message).help(help));
+            return None;
+        }
+        Some((gap, dimension))
+    }
+
+    /// True if a formula has pieces, or a table with corners, of positions.
+    fn bends(&self, gap: Expr) -> bool {
+        let arena = &self.scope.arena;
+        let is_of_positions = |node: Expr| {
+            let mut symbols = arena.symbols_in(node).into_iter();
+            symbols.any(|symbol| matches!(self.scope.meaning(symbol), Meaning::Coordinate(_)))
+        };
+        arena.reachable(&[gap]).into_iter().any(|node| {
+            let has_corners = match *arena.node(node) {
+                Node::Call(function, _) => function.row().pieces != Pieces::One,
+                Node::Spline(id, ..) => arena
+                    .splines()
+                    .get(id.index())
+                    .is_some_and(|spline| spline.jump(0).or(spline.jump(1)).is_some()),
+                _ => false,
+            };
+            has_corners && is_of_positions(node)
+        })
+    }
+
+    /// Enters the impulse of a stop, whose unit its gap decides.
+    fn know_impulse(&mut self, name: &Ident, memory: usize, gap: Dimension) {
+        // what changes the energy by a rate of the gap
+        let dimension = Dimension::of(1, 2, -1).over(gap);
+        let Some(input) = self.inputs.get_mut(memory) else { return };
+        (input.quantity.dimension, input.quantity.unit) = (dimension, dimension.si_unit());
+        let Some(symbol) = self.scope.symbol_of(Meaning::Input(memory)) else { return };
+        let value = Value::Symbol { symbol, dimension, span: name.span() };
+        self.scope.declare(&impulse_of(name), value, &mut self.errors);
+    }
+
+    /// The restitution, and the share of the longest flight below which a stop is not left again.
+    fn stop_properties(&mut self, name: &Ident, properties: &[Property]) -> Option<[Expr; 2]> {
+        let mut found: BTreeMap<String, Expr> = BTreeMap::new();
+        for Property { name: property, value } in properties {
+            let text = property.to_string();
+            if ![RESTITUTION, SETTLE].contains(&&*text) {
+                let message = format!("a stop has no `{text}`");
+                let help = match (&*text, nearest(&text, [RESTITUTION, SETTLE])) {
+                    ("stiffness" | "damping", _) => {
+                        "a soft end is a force: `force end on x = -k*ramp(x - gap);`".to_owned()
+                    }
+                    ("friction", _) => "impacts have no friction: leave it out".to_owned(),
+                    (_, Some(near)) => format!("did you mean `{near}`?"),
+                    _ => format!("its properties are {}", listing([RESTITUTION, SETTLE])),
+                };
+                self.errors.push(Diagnostic::new(property.span(), message).help(help));
+                return None;
+            }
+            let what = format!("the {text} of `{name}`");
+            let dimension = (&*what, Dimension::NONE);
+            let expr = self.scope.formula_of(value, Place::Property, dimension, &mut self.errors)?;
+            self.within_one(&format!("the {text} of {name}"), expr, value.span);
+            if found.insert(text, expr).is_some() {
+                let help = "keep one of them";
+                let message = format!("{what} is given twice");
+                self.errors.push(Diagnostic::new(property.span(), message).help(help));
+            }
+        }
+        let Some(&restitution) = found.get(RESTITUTION) else {
+            let message = format!("`{name}` does not say how it throws back what hits it");
+            let help = "give it a restitution from 0 (it stays) to 1 (it bounces without loss): \
+                        `{ restitution = 0.4; }`";
+            self.errors.push(Diagnostic::new(name.span(), message).help(help));
+            return None;
+        };
+        let settled = self.scope.arena.number(Number::from(SETTLED));
+        Some([restitution, found.get(SETTLE).copied().unwrap_or(settled)])
+    }
+
+    /// Asks that a value is from 0 to 1.
+    fn within_one(&mut self, what: &str, value: Expr, span: proc_macro2::Span) {
+        let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
+        for (bound, comparison) in [(zero, Comparison::GreaterOrEqual), (one, Comparison::LessOrEqual)] {
+            self.scope.requirements.push(Requirement {
+                name: what.to_owned(),
+                value,
+                difference: self.scope.arena.sub(value, bound),
+                comparison,
+                text: "it has to be from 0 to 1".to_owned(),
+                span,
+            });
+        }
+    }
+
+    /// Refuses what does not go with stops.
+    pub(super) fn check_stops(&mut self) {
+        let Some(stop) = self.stops.first() else { return };
+        let (name, span) = (stop.quantity.name.clone(), stop.span);
+        let mut refuse = |message: String, help: &str| {
+            self.errors.push(Diagnostic::new(span, message).help(help));
+        };
+        if self.solver.has_reduced_states() {
+            refuse(
+                format!("`{name}` stops coordinates that are not integrated"),
+                "leave `states = reduced;` out where there are stops",
+            );
+        }
+        if self.solver.reverse.is_some() {
+            refuse(
+                format!("no way leads back through the impacts of `{name}`"),
+                "leave `gradients = reverse;` out: derivatives by dual numbers go through impacts",
+            );
+        }
+        if !self.reactive_loads.is_empty() {
+            refuse(
+                format!("a force depends on reactions, which an impact at `{name}` makes infinite"),
+                "let it depend on positions and velocities where there are stops",
+            );
+        }
+    }
+}
+
+/// The name of the memory that sums up impulses.
+fn impulse_of(name: &Ident) -> Ident {
+    Ident::new(&format!("{}_impulse", name.to_string().trim_start_matches("r#")), name.span())
+}

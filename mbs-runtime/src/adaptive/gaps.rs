@@ -1,0 +1,105 @@
+//! Stops among what a run watches: their places, their values, and what the run remembers of them.
+
+use super::dynamics::Dynamics;
+use super::effort::Effort;
+use crate::Real;
+use crate::contact::{Each, Gaps, MOST_STOPS, bit, has, held, pressed};
+use crate::equations::{At, Equations};
+use crate::info::{Direction, MOST_EVENTS};
+use crate::vectors;
+
+/// The memory of a run of its stops.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stopping {
+    /// The longest flight from each stop so far, in s.
+    pub longest: Each<f64>,
+    /// The largest coordinate at a jump so far.
+    pub size: f64,
+    /// The stops that are rested on from the next jump on, as they were not left by more than rounding.
+    pub stuck: u32,
+    /// The stops at which the next jump is.
+    pub reached: u32,
+    /// When that was found last, and how often.
+    pub looks: (f64, u8),
+    /// The effort before the last step.
+    pub effort: Effort,
+    /// True if the last step was too long to see what gaps do in it.
+    pub is_too_long: bool,
+    /// The stops that are rested on because they were not left, until they push.
+    pub kept: u32,
+}
+
+impl Stopping {
+    pub const fn new() -> Self {
+        Self {
+            longest: [0.0; MOST_STOPS],
+            size: f64::MIN_POSITIVE,
+            stuck: 0,
+            reached: 0,
+            looks: (f64::NAN, 0),
+            effort: Effort::NONE,
+            is_too_long: false,
+            kept: 0,
+        }
+    }
+}
+
+/// The bit of a stop among those of what is watched: the last ones.
+pub(super) const fn place(stop: usize) -> usize {
+    MOST_EVENTS - 1 - stop
+}
+
+/// The stop that is watched in a place, if it is one.
+pub(super) fn stop_in<T: Real>(equations: &dyn Equations<T>, place: usize) -> Option<usize> {
+    let stop = (MOST_EVENTS - 1).checked_sub(place)?;
+    (stop < equations.info().stops.len()).then_some(stop)
+}
+
+/// The watched value of a stop: its gap while it is open, the force at it while it is rested on.
+pub(super) fn value<D: Dynamics>(
+    dynamics: &D,
+    inputs: &D::Inputs,
+    at: At<'_, D::Real>,
+    stop: usize,
+) -> D::Real {
+    let equations = dynamics.equations();
+    let mut inputs = dynamics.inputs_at(at.t, inputs);
+    dynamics.with_inputs(&mut inputs, |inputs| {
+        let (mut a, feedback) = (dynamics.declared_start().1, dynamics.no_feedback());
+        vectors::fill(a.as_mut(), D::Real::default());
+        let values = if has(held(equations, inputs), stop) {
+            equations.accelerations(at, inputs, feedback.as_ref(), a.as_mut());
+            pressed(equations, at, inputs, a.as_mut(), None).1
+        } else {
+            Gaps::of(equations, at, a.as_ref()).gap
+        };
+        values.get(stop).copied().unwrap_or_default()
+    })
+}
+
+/// The stops whose events are among these.
+pub(super) fn among(happened: u64, count: usize) -> u32 {
+    (0..count).filter(|stop| happened & watched_bit(*stop) != 0).fold(0, |set, stop| set | bit(stop))
+}
+
+/// The bits of so many stops.
+pub(super) fn all_bits(stops: usize) -> u64 {
+    (0..stops).fold(0, |set, stop| set | watched_bit(stop))
+}
+
+pub(super) fn watched_bit(stop: usize) -> u64 {
+    1 << place(stop)
+}
+
+/// The places of what is watched: values, and behind them stops from the last place on.
+pub(super) fn watched(count: usize, stops: usize) -> impl Iterator<Item = (usize, u64)> {
+    bits(count).chain((0..stops).map(|stop| (place(stop), watched_bit(stop))))
+}
+
+/// A gap that opens is no event, nor is a force that grows.
+pub(super) const DIRECTION: Direction = Direction::Falling;
+
+/// The watched values with their bits.
+pub(super) fn bits(count: usize) -> impl Iterator<Item = (usize, u64)> {
+    (0..count).zip((0..).map_while(|at| 1_u64.checked_shl(at)))
+}

@@ -1,0 +1,289 @@
+//! A jump at stops: the impulses of an impact, and the stops that are rested on behind it.
+
+use super::dynamics::Dynamics;
+use super::gaps::Stopping;
+use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, held, pressed};
+use crate::equations::At;
+use crate::{Real, vectors};
+
+/// A gap below this share of the size of the coordinates is closed,
+const CLOSED: f64 = 1e-12;
+/// and one that closes within this share of the longest step.
+const SOON: f64 = 1e-10;
+/// A rate of a gap is 0 below this share of the largest one that the kinetic energy lets it have,
+const STILL: f64 = 1e-9;
+/// where a stop that is rested on has not jumped below so many times as much,
+const JUMPS: f64 = 1e3;
+/// and one with which the gap opens by no more than this share of the size of the coordinates.
+const RISE: f64 = 1e-18;
+/// So many impacts follow each other at once, where one lets gaps close that had begun to open.
+const IN_SEQUENCE: usize = 64;
+/// A gap that opens by no more than this share has not been left: its flight is lost in rounding.
+const LOW: f64 = 1e-12;
+
+/// A state at stops: what a jump starts from, and what it leads to.
+pub(super) struct Jump<'a, D: Dynamics> {
+    pub dynamics: &'a D,
+    /// With the memories of before.
+    pub inputs: &'a [D::Real],
+    pub t: D::Real,
+    pub q: D::Coordinates,
+    pub v: D::Coordinates,
+    pub a: D::Coordinates,
+}
+
+impl<D: Dynamics> Jump<'_, D> {
+    fn at(&self) -> At<'_, D::Real> {
+        At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
+    }
+
+    /// The gaps, with the accelerations that there are without stops.
+    pub fn gaps(&mut self) -> Gaps<D::Real> {
+        let Self { dynamics, inputs, t, q, v, a } = self;
+        let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
+        let equations = dynamics.equations();
+        equations.accelerations(at, inputs, dynamics.no_feedback().as_ref(), a.as_mut());
+        Gaps::of(equations, at, a.as_ref())
+    }
+
+    /// The stops that are rested on and pull, those that push, and open ones that are closed and do not open.
+    pub fn look(&mut self, size: f64) -> [u32; 3] {
+        let Self { dynamics, inputs, t, q, v, a } = self;
+        let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
+        let equations = dynamics.equations();
+        let held = held(equations, inputs);
+        let mut forces = [D::Real::default(); MOST_STOPS];
+        if held != 0 {
+            equations.accelerations(at, inputs, dynamics.no_feedback().as_ref(), a.as_mut());
+            forces = pressed(equations, at, inputs, a.as_mut(), None).1;
+        }
+        let gaps = Gaps::of(equations, at, a.as_ref());
+        let slopes = self.slopes();
+        let those = |is: &dyn Fn(usize) -> bool| {
+            (0..equations.info().stops.len()).filter(|stop| is(*stop)).fold(0, |set, stop| set | bit(stop))
+        };
+        let number = |of: &Each<D::Real>, stop: usize| of.get(stop).map_or(0.0, |x| x.to_f64());
+        let pulls = those(&|stop| has(held, stop) && number(&forces, stop) < 0.0);
+        let pushes = those(&|stop| has(held, stop) && number(&forces, stop) > 0.0);
+        let closed = those(&|stop| {
+            let least = CLOSED * size * slopes.get(stop).copied().unwrap_or_default();
+            !has(held, stop) && number(&gaps.gap, stop) <= least && number(&gaps.rate, stop) <= 0.0
+        });
+        [pulls, pushes, closed]
+    }
+
+    /// Does something with the responses here.
+    fn contacts<R>(&self, what: impl FnOnce(Contacts<'_, D::Real>) -> R) -> Option<R> {
+        Contacts::at(self.dynamics.equations(), (self.t, self.q.as_ref()), what)
+    }
+
+    /// The size of the coordinates of bodies here.
+    pub fn size(&self) -> f64 {
+        let info = self.dynamics.equations().info();
+        vectors::largest(info.of_bodies(self.q.as_ref())).1.to_f64()
+    }
+
+    /// How much a gap changes with all coordinates by 1.
+    pub fn slopes(&self) -> Each<f64> {
+        let slopes = self.contacts(|contacts| core::array::from_fn(|stop| contacts.slope(stop)));
+        slopes.unwrap_or([0.0; MOST_STOPS])
+    }
+
+    /// The rates below which gaps are still.
+    fn still(&self, accelerations: &Each<D::Real>, size: f64) -> Each<f64> {
+        let energy = self.dynamics.equations().kinetic_energy(self.at()).to_f64().max(0.0);
+        let none = [0.0; MOST_STOPS];
+        let diagonal = self.contacts(|contacts| {
+            core::array::from_fn(|stop| contacts.mobility(stop, stop).to_f64().max(0.0))
+        });
+        let mut still = diagonal.unwrap_or(none).map(|mobility| STILL * Real::sqrt(2.0 * energy * mobility));
+        for ((still, acceleration), slope) in still.iter_mut().zip(accelerations).zip(self.slopes()) {
+            *still += Real::sqrt(2.0 * acceleration.to_f64().abs() * RISE * slope * size);
+        }
+        still
+    }
+
+    /// The stops of a set that move at more than the error of a step.
+    pub fn hit(&mut self, held: u32, size: f64) -> u32 {
+        let gaps = self.gaps();
+        let still = self.still(&gaps.acceleration, size).map(|still| JUMPS * still);
+        let count = self.dynamics.equations().info().stops.len();
+        let hit = (0..count).filter(|stop| has(held, *stop) && !is_still(&gaps.rate, &still, *stop));
+        hit.fold(0, |set, stop| set | bit(stop))
+    }
+
+    /// Moves velocities, or positions, so that what is given of the gaps of a set becomes 0.
+    pub fn clear(&mut self, set: u32, of: &Each<D::Real>, are_positions: bool) {
+        let solved = self.contacts(|contacts| {
+            let x = contacts.solve(set, of);
+            let mut delta = self.q.clone();
+            vectors::fill(delta.as_mut(), D::Real::default());
+            contacts.add(&x, delta.as_mut());
+            delta
+        });
+        let Some(delta) = solved else { return };
+        let to = if are_positions { &mut self.q } else { &mut self.v };
+        vectors::zip_map(to.as_mut(), delta.as_ref(), |x, delta| x + delta);
+    }
+}
+
+/// Where a jump leads.
+pub(super) struct Outcome<T> {
+    /// The stops that are rested on.
+    pub held: u32,
+    /// The stops that are closed.
+    pub closed: u32,
+    /// Λ
+    pub impulses: Each<T>,
+    /// How long it takes until the next impact, as far as the present motion tells.
+    pub flight: f64,
+}
+
+impl<D: Dynamics> Jump<'_, D> {
+    /// The gaps, with accelerations that the stops of a set have a part in which are closed and still.
+    fn pressed(&mut self, closed: u32, size: f64) -> Result<Gaps<D::Real>, usize> {
+        let mut gaps = self.gaps();
+        let still = self.still(&gaps.acceleration, size);
+        let count = self.dynamics.equations().info().stops.len();
+        let resting = (0..count).filter(|stop| has(closed, *stop) && is_still(&gaps.rate, &still, *stop));
+        let resting = resting.fold(0, |set, stop| set | bit(stop));
+        let solved = self.contacts(|contacts| {
+            let (_, forces) = contacts.complementary(resting, &gaps.acceleration)?;
+            Some(contacts.rates(&forces))
+        });
+        let change = solved.flatten().ok_or(first(closed))?;
+        for (to, change) in gaps.acceleration.iter_mut().zip(change) {
+            *to = *to + change;
+        }
+        Ok(gaps)
+    }
+
+    /// Answers impacts and decides which stops are rested on. The stop at fault, where nothing does.
+    pub fn lead(
+        &mut self,
+        reached: u32,
+        held: u32,
+        longest_step: f64,
+        stopping: &mut Stopping,
+    ) -> Result<Outcome<D::Real>, usize> {
+        let count = self.dynamics.equations().info().stops.len();
+        let gaps = self.gaps();
+        let number = |of: &Each<D::Real>, stop: usize| of.get(stop).map_or(0.0, |x| x.to_f64());
+        stopping.size = stopping.size.max(self.size());
+        let (size, slopes) = (CLOSED * stopping.size, self.slopes());
+        let is_closed = |stop: &usize| {
+            let soon = SOON * longest_step * (-number(&gaps.rate, *stop)).max(0.0);
+            number(&gaps.gap, *stop) <= slopes.get(*stop).map_or(0.0, |slope| size * slope) + soon
+        };
+        let closed = held | reached | (0..count).filter(is_closed).fold(0, |set, stop| set | bit(stop));
+        let still = self.still(&gaps.acceleration, stopping.size);
+        let (mut impulses, mut flight) = ([D::Real::default(); MOST_STOPS], f64::INFINITY);
+        let mut is_impact = false;
+        for number_of in 1..=IN_SEQUENCE {
+            let rate = self.gaps().rate;
+            let opens = |stop: &usize| number(&rate, *stop) > 0.0 && !is_still(&rate, &still, *stop);
+            let closing = (0..count).filter(|stop| has(closed, *stop) && !opens(stop));
+            let closing = closing.fold(0, |set, stop| set | bit(stop));
+            let is_hit = |stop: usize| has(closing, stop) && !is_still(&rate, &still, stop);
+            if !(0..count).any(is_hit) {
+                break;
+            }
+            // an accumulation within one moment ends as others do
+            let settled = stopping.stuck | if number_of == IN_SEQUENCE { closing } else { 0 };
+            let (more, next) = self.impact(closing, &rate, (settled, stopping))?;
+            for (impulse, more) in impulses.iter_mut().zip(more) {
+                *impulse = *impulse + more;
+            }
+            (is_impact, flight) = (true, next);
+        }
+        // a stop that pulls is left, and so is one from which the impact throws back
+        let pulling = if is_impact { 0 } else { reached & held & !stopping.stuck };
+        let rates = self.gaps().rate;
+        let stuck = core::mem::take(&mut stopping.stuck);
+        let rests = |stop: &usize| is_still(&rates, &still, *stop) || has(stuck, *stop);
+        let resting = (0..count).filter(|stop| has(closed & !pulling, *stop) && rests(stop));
+        let resting = resting.fold(0, |set, stop| set | bit(stop));
+        self.clear(resting, &gaps.gap, true);
+        let rates = self.gaps().rate;
+        self.clear(resting, &rates, false);
+        let accelerations = self.gaps().acceleration;
+        let solved = self.contacts(|contacts| contacts.complementary(resting, &accelerations));
+        let (held, _) = solved.flatten().ok_or(first(closed))?;
+        stopping.kept = resting & stuck & !held;
+        let held = held | resting & stuck;
+        Ok(Outcome { held, closed, impulses, flight })
+    }
+
+    /// Changes velocities by the impulses of an impact at stops that close.
+    fn impact(
+        &mut self,
+        closed: u32,
+        rates: &Each<D::Real>,
+        (mut settled, stopping): (u32, &mut Stopping),
+    ) -> Result<(Each<D::Real>, f64), usize> {
+        let equations = self.dynamics.equations();
+        let count = equations.info().stops.len();
+        let mut laws = [D::Real::default(); 2 * MOST_STOPS];
+        if let Some(laws) = laws.get_mut(..2 * count) {
+            equations.stop_laws(laws);
+        }
+        let law = |stop: usize, which: usize| laws.get(2 * stop + which).copied().unwrap_or_default();
+        let (lowest, slopes) = (LOW * self.size(), self.slopes());
+        loop {
+            let b: Each<D::Real> = core::array::from_fn(|stop| {
+                let rate = rates.get(stop).copied().unwrap_or_default();
+                let is_thrown = rate.to_f64() < 0.0 && !has(settled, stop);
+                if is_thrown { rate + law(stop, 0) * rate } else { rate }
+            });
+            let before = self.v.clone();
+            let solved = self.contacts(|contacts| {
+                let (_, impulses) = contacts.complementary(closed, &b)?;
+                let mut after = before.clone();
+                contacts.add(&impulses, after.as_mut());
+                Some((impulses, after))
+            });
+            let (impulses, after) = solved.flatten().ok_or(first(closed))?;
+            self.v = after;
+            let thrown = self.pressed(closed, stopping.size)?;
+            let (mut more, mut shortest) = (0, f64::INFINITY);
+            for stop in (0..count).filter(|stop| has(closed & !settled, *stop)) {
+                let flight = flight(&thrown, stop);
+                let (Some([flight, height]), Some(longest)) = (flight, stopping.longest.get_mut(stop)) else {
+                    continue;
+                };
+                if flight < law(stop, 1).to_f64() * *longest
+                    || height < slopes.get(stop).map_or(0.0, |slope| lowest * slope)
+                {
+                    more |= bit(stop);
+                }
+                *longest = longest.max(flight);
+                shortest = shortest.min(flight);
+            }
+            if more == 0 {
+                return Ok((impulses, shortest));
+            }
+            settled |= more;
+            self.v = before;
+        }
+    }
+}
+
+/// True if a gap does not move.
+fn is_still<T: Real>(rates: &Each<T>, still: &Each<f64>, stop: usize) -> bool {
+    let [rate, still] = [rates.get(stop).map(|rate| rate.to_f64()), still.get(stop).copied()];
+    rate.unwrap_or_default().abs() <= still.unwrap_or_default()
+}
+
+/// The first stop of a set.
+fn first(set: u32) -> usize {
+    set.trailing_zeros() as usize
+}
+
+/// How long it takes until a gap closes again, which begins to open, and how far it opens, as far as its second
+/// derivative tells.
+fn flight<T: Real>(gaps: &Gaps<T>, stop: usize) -> Option<[f64; 2]> {
+    let [rate, acceleration] =
+        [&gaps.rate, &gaps.acceleration].map(|of| of.get(stop).map_or(0.0, |x| x.to_f64()));
+    (rate > 0.0 && acceleration < 0.0)
+        .then(|| [-2.0 * rate / acceleration, -0.5 * rate * rate / acceleration])
+}

@@ -1,0 +1,238 @@
+//! Stops in runs to a tolerance: where they are reached, and how the run goes on.
+//!
+//! A run watches the gaps of the stops that are open, and the forces at those that are rested on. Where one of them
+//! would become negative the step ends. The [jump](super::jump) is made before the next step, or where the run is looked
+//! at: until then the last step is known with the motion that it had.
+
+use super::events::{Happened, Watched};
+use super::gaps::{Stopping, all_bits, among, watched_bit};
+use super::jump::{Jump, Outcome};
+use super::{Adaptive, AdaptiveScheme, Dynamics};
+use crate::contact::{bit, has, held};
+use crate::{Error, Real};
+
+/// A start is behind a stop by more than this share of the size of the coordinates.
+const BEHIND: f64 = 1e-9;
+/// The step behind an impact is tried with so many times the flight that follows.
+const FLIGHTS: f64 = 2.0;
+/// A step that was too long to see what gaps do in it is tried again with this share of it,
+const SHORTER: f64 = 0.1;
+/// unless it is as short already beside the longest one.
+const SHORT: f64 = 1e-4;
+/// A run ends where so many steps in sequence do not leave a stop.
+const MOST_LOOKS: u8 = 8;
+
+impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
+    /// The number of stops.
+    fn stop_count(&self) -> usize {
+        self.dynamics.equations().info().stops.len()
+    }
+
+    /// Looks for the first stop that was reached in the last step, where nothing else is watched.
+    pub(super) fn look_for_stops(&mut self) -> Result<(), Error> {
+        if self.stop_count() == 0 {
+            return Ok(());
+        }
+        let mut watched = Watched {
+            count: 0,
+            direction: &|_| None,
+            values: &mut |_: &D, _: &D::Inputs, _, _| {},
+            room: &mut [],
+            is_declared: false,
+        };
+        self.look_back(&mut watched)
+    }
+
+    /// Notes the stops at which the last step ended.
+    pub(super) fn reach_stops(&mut self) {
+        self.stopping.reached |= among(self.happened.due, self.stop_count());
+    }
+
+    /// The events at stops are no news where a program asks for its own.
+    pub(super) fn forget_stops(&mut self) {
+        self.happened.due &= !all_bits(self.stop_count());
+    }
+
+    /// Nor is it where a stop is left.
+    pub(super) fn forget_releases(&mut self) {
+        if self.stop_count() > 0 {
+            let held = self.with_jump(|jump| held(jump.dynamics.equations(), jump.inputs));
+            let left = (0..self.stop_count()).filter(|stop| has(held, *stop));
+            self.happened.due &= !left.fold(0, |set, stop| set | watched_bit(stop));
+        }
+    }
+
+    /// Looks at the stops at the start of a step, where forces may have jumped: one that is rested on and pulls is left, and
+    /// one that is closed and still is rested on if it pushes.
+    ///
+    /// # Errors
+    /// [`Error::Impact`].
+    pub(super) fn look_at_rests(&mut self) -> Result<(), Error> {
+        let count = self.stop_count();
+        if count == 0 {
+            return Ok(());
+        }
+        self.stopping.effort = self.effort;
+        let Stopping { kept, size, .. } = self.stopping;
+        let [pulled, pushing, closed] = self.with_jump(|jump| jump.look(size));
+        self.stopping.kept = kept & !pushing;
+        // what a jump has looked at already leaves its event
+        let known = among(self.happened.all | self.happened.judged, count);
+        let reached = pulled & !kept | closed & !known;
+        if reached == 0 { Ok(()) } else { self.jump_at(reached) }
+    }
+
+    /// Makes the jump that is due at the present time, if one is.
+    ///
+    /// # Errors
+    /// [`Error::Impact`].
+    pub(super) fn jump(&mut self) -> Result<(), Error> {
+        let reached = core::mem::take(&mut self.stopping.reached);
+        if reached == 0 { Ok(()) } else { self.jump_at(reached) }
+    }
+
+    /// Rests on the stops that the start touches, and bounces off them.
+    ///
+    /// # Errors
+    /// [`Error::Behind`], [`Error::Impact`].
+    pub(super) fn touch(&mut self) -> Result<(), Error> {
+        if self.stop_count() == 0 {
+            return Ok(());
+        }
+        let t = self.now.t.to_f64();
+        let size = self.with_jump(|jump| jump.size());
+        self.stopping.size = self.stopping.size.max(size);
+        let size = BEHIND * self.stopping.size;
+        let slopes = self.with_jump(|jump| jump.slopes());
+        let allowed = slopes.map(|slope| size * slope);
+        let behind = self.with_jump(|jump| {
+            let gaps = jump.gaps().gap.map(Real::to_f64);
+            gaps.into_iter().zip(allowed).enumerate().find(|(_, (gap, allowed))| *gap < -*allowed)
+        });
+        let stops = self.dynamics.equations().info().stops;
+        if let Some((stop, (gap, _))) = behind {
+            let stop = stops.get(stop).map_or("", |stop| stop.name);
+            return Err(Error::Behind { t, stop, gap });
+        }
+        let touched = self.with_jump(|jump| {
+            let gaps = jump.gaps().gap.map(Real::to_f64);
+            let is_touched = |stop: &usize| gaps.get(*stop) <= allowed.get(*stop);
+            (0..stops.len()).filter(is_touched).fold(0, |set, stop| set | bit(stop))
+        });
+        if touched == 0 { Ok(()) } else { self.jump_at(touched) }
+    }
+
+    /// Goes back to where the last step began if that was too long to see what gaps do in it; true if it does.
+    pub(super) fn is_shorter(&mut self) -> bool {
+        let h = (self.now.t - self.before.t).to_f64();
+        let is_long = core::mem::take(&mut self.stopping.is_too_long) && h > SHORT * self.effort.longest;
+        if is_long {
+            self.step_back();
+            // it was no step of the run
+            self.effort = self.stopping.effort;
+            self.effort.rejected += 1;
+            self.control.next = SHORTER * h;
+        }
+        is_long
+    }
+
+    /// Lets the next jump rest on a stop; false if that has been tried too often at this time.
+    pub(super) fn is_stuck(&mut self, stop: usize) -> bool {
+        let (t, Stopping { stuck, reached, looks, .. }) = (self.now.t.to_f64(), &mut self.stopping);
+        let count = if looks.0 == t { looks.1 + 1 } else { 1 };
+        *looks = (t, count);
+        *stuck |= bit(stop);
+        *reached |= bit(stop);
+        count <= MOST_LOOKS
+    }
+
+    /// Leads the end of a step back to the stops that are rested on, as joints are led back to their constraints. One whose
+    /// velocity jumps, as a floor does that a table moves, hits what rests on it.
+    pub(super) fn stay(&mut self) {
+        if self.stop_count() == 0 {
+            return;
+        }
+        let size = self.stopping.size;
+        let found = self.with_jump(|jump| {
+            let held = held(jump.dynamics.equations(), jump.inputs);
+            if held == 0 {
+                return None;
+            }
+            let hit = jump.hit(held, size);
+            if hit == 0 {
+                let gaps = jump.gaps().gap;
+                jump.clear(held, &gaps, true);
+                let rates = jump.gaps().rate;
+                jump.clear(held, &rates, false);
+            }
+            Some((jump.q.clone(), jump.v.clone(), hit))
+        });
+        if let Some((q, v, hit)) = found {
+            (self.now.q, self.now.v) = (self.dynamics.states(&q), self.dynamics.states(&v));
+            self.is_solved = false;
+            self.stopping.reached |= hit;
+        }
+    }
+
+    fn with_jump<R>(&mut self, what: impl FnOnce(&mut Jump<'_, D>) -> R) -> R {
+        let Self { dynamics, inputs, now, all, .. } = self;
+        dynamics.complete(now.t, &now.q, &now.v, all);
+        let [q, v] = all.clone();
+        let mut present = dynamics.inputs_at(now.t, inputs);
+        dynamics.with_inputs(&mut present, |inputs| {
+            what(&mut Jump { dynamics: &*dynamics, inputs, t: now.t, a: q.clone(), q, v })
+        })
+    }
+
+    /// The jump at stops that are reached: those whose gap has closed, and those that pull.
+    fn jump_at(&mut self, reached: u32) -> Result<(), Error> {
+        // what lies behind was computed with the memories of before
+        self.inputs_mut();
+        let (longest, mut stopping) = (self.effort.longest, self.stopping);
+        let found = self.with_jump(|jump| {
+            let held = held(jump.dynamics.equations(), jump.inputs);
+            let outcome = jump.lead(reached, held, longest, &mut stopping)?;
+            Ok((jump.q.clone(), jump.v.clone(), outcome))
+        });
+        let (q, v, Outcome { held: now_held, closed, impulses, flight }) = found.map_err(|stop: usize| {
+            let stops = self.dynamics.equations().info().stops;
+            Error::Impact { t: self.now.t.to_f64(), stop: stops.get(stop).map_or("", |stop| stop.name) }
+        })?;
+        self.stopping = stopping;
+        // a step over many flights would round the first one away
+        self.control.next = self.control.next.min(FLIGHTS * flight);
+        if !self.happened.is_set {
+            self.arrival = self.now.clone();
+        }
+        let Self { dynamics, inputs, now, before, .. } = self;
+        (now.q, now.v) = (dynamics.states(&q), dynamics.states(&v));
+        let stops = dynamics.equations().info().stops;
+        dynamics.with_inputs(inputs, |inputs| {
+            for (at, stop) in stops.iter().enumerate() {
+                let impulse = impulses.get(at).copied().unwrap_or_default();
+                if let Some(memory) = inputs.get_mut(stop.memory) {
+                    *memory = D::Real::from_f64(if has(now_held, at) { 1.0 } else { 0.0 });
+                }
+                if let Some(memory) = inputs.get_mut(stop.memory + 1) {
+                    *memory = *memory + impulse;
+                }
+            }
+        });
+        *before = now.clone();
+        self.between.begin(false);
+        let Happened { all, rising, due, judged, turned, .. } = self.happened;
+        let ours = all_bits(stops.len());
+        // an open stop that is closed still is left from its event; the force at another one has not been looked at
+        let left = (0..stops.len()).filter(|stop| has(closed & !now_held, *stop));
+        let left = left.fold(0, |set, stop| set | watched_bit(stop));
+        self.happened = Happened {
+            all: all & !ours | left,
+            rising: rising & !ours,
+            due,
+            judged: judged & !ours,
+            turned: turned & !ours,
+            is_set: true,
+        };
+        Ok(())
+    }
+}

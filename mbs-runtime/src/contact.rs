@@ -1,0 +1,328 @@
+//! Impacts and rests at stops.
+//!
+//! A gap g(q, t) ≥ 0 closes. With the responses Y to unit impulses along ∂g/∂q of the stops that are closed and
+//! W = ∂g/∂q Y, impulses Λ change velocities by Y Λ and the rates of the gaps by W Λ; forces λ do the same to
+//! accelerations. Joints hold meanwhile, as Φ_q Y = 0. So both laws are one problem,
+//!
+//! ```text
+//! W x + b ≥ 0    x ≥ 0    xᵀ(W x + b) = 0
+//! ```
+//!
+//! * of an impact x is Λ, and b the rate ġ before, of a gap that closes (1 + e)ġ: ġ⁺ ≥ −e ġ⁻, and ġ⁺ = −e ġ⁻ where
+//!   there is an impulse (Newton's law; Glocker 2001 for several at once). Energy does not grow for e ≤ 1;
+//! * of a rest x is λ, and b the second derivative g̈ without it.
+//!
+//! W is positive semidefinite. Pivots by the least index (Murty 1974) end after finitely many, and there are few stops.
+
+use crate::Real;
+use crate::equations::{At, Equations};
+
+/// At most so many stops has a mechanism.
+pub(crate) const MOST_STOPS: usize = 16;
+
+/// A number per stop.
+pub(crate) type Each<T> = [T; MOST_STOPS];
+
+/// Pivots, after which there is no solution: more than all sets of eight stops.
+const MOST_PIVOTS: usize = 512;
+/// A negative value is rounding up to this share of the terms of which it is made.
+const ROUNDING: f64 = 1e-12;
+/// A pivot below this share of its row depends on those before it: these stops press one way.
+const DEPENDENT: f64 = 1e-10;
+
+/// The gaps of stops in a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gaps<T> {
+    /// g
+    pub gap: Each<T>,
+    /// ġ
+    pub rate: Each<T>,
+    /// g̈
+    pub acceleration: Each<T>,
+}
+
+impl<T: Real> Gaps<T> {
+    /// In a state with given accelerations.
+    pub fn of(equations: &dyn Equations<T>, at: At<'_, T>, acceleration: &[T]) -> Self {
+        let mut values = [T::default(); 3 * MOST_STOPS];
+        let count = equations.info().stops.len();
+        if let Some(values) = values.get_mut(..3 * count) {
+            equations.gaps(at, acceleration, values);
+        }
+        let each = |which: usize| {
+            core::array::from_fn(|stop| values.get(3 * stop + which).copied().unwrap_or_default())
+        };
+        Self { gap: each(0), rate: each(1), acceleration: each(2) }
+    }
+}
+
+/// The responses of a mechanism to unit impulses along the gaps of its stops.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contacts<'a, T> {
+    stops: usize,
+    coordinates: usize,
+    constraints: usize,
+    values: &'a [T],
+}
+
+impl<'a, T: Real> Contacts<'a, T> {
+    /// Does something with the responses at a position.
+    pub fn at<R>(
+        equations: &dyn Equations<T>,
+        (t, q): (T, &[T]),
+        what: impl FnOnce(Contacts<'_, T>) -> R,
+    ) -> Option<R> {
+        let info = equations.info();
+        let (stops, coordinates) = (info.stops.len(), info.coordinates.len());
+        let constraints = info.constraints.len();
+        let (mut what, mut result) = (Some(what), None);
+        equations.contacts(t, q, &mut |values| {
+            if let Some(what) = what.take() {
+                result = Some(what(Contacts { stops, coordinates, constraints, values }));
+            }
+        });
+        result
+    }
+
+    fn each(&self) -> usize {
+        2 * self.coordinates + self.constraints
+    }
+
+    /// Σ |∂g/∂q| of a stop: its gap is known to so many roundings of the coordinates.
+    pub fn slope(&self, stop: usize) -> f64 {
+        let from = stop * self.each() + self.coordinates + self.constraints;
+        let slopes = self.values.get(from..from + self.coordinates).unwrap_or_default();
+        slopes.iter().map(|slope| slope.to_f64().abs()).sum()
+    }
+
+    /// Y of a stop.
+    pub fn response(&self, stop: usize) -> &'a [T] {
+        let from = stop * self.each();
+        self.values.get(from..from + self.coordinates).unwrap_or_default()
+    }
+
+    /// What a unit impulse at a stop adds to the multipliers.
+    pub fn reactions(&self, stop: usize) -> &'a [T] {
+        let from = stop * self.each() + self.coordinates;
+        self.values.get(from..from + self.constraints).unwrap_or_default()
+    }
+
+    /// How an impulse at one stop changes the rate of the gap of another.
+    pub fn mobility(&self, of: usize, by: usize) -> T {
+        let at = self.stops * self.each() + by * self.stops + of;
+        self.values.get(at).copied().unwrap_or_default()
+    }
+
+    /// The pivot growth of the elimination.
+    pub fn growth(&self) -> T {
+        self.values.last().copied().unwrap_or(T::from_f64(f64::NAN))
+    }
+
+    /// x of a set of stops with W x + b = 0 there; 0 where it depends on others of the set.
+    pub fn solve(&self, set: u32, b: &Each<T>) -> Each<T> {
+        let mut rows = [[T::default(); MOST_STOPS + 1]; MOST_STOPS];
+        let (mut members, mut count) = ([0; MOST_STOPS], 0);
+        for stop in (0..self.stops).filter(|stop| has(set, *stop)) {
+            if let Some(member) = members.get_mut(count) {
+                *member = stop;
+                count += 1;
+            }
+        }
+        let members = members.get(..count).unwrap_or_default();
+        for (row, &of) in rows.iter_mut().zip(members) {
+            for (entry, &by) in row.iter_mut().zip(members) {
+                *entry = self.mobility(of, by);
+            }
+            if let (Some(last), Some(b)) = (row.last_mut(), b.get(of)) {
+                *last = -*b;
+            }
+        }
+        let mut solution = [T::default(); MOST_STOPS];
+        let found = eliminate(&mut rows, count);
+        for (&stop, x) in members.iter().zip(found) {
+            if let Some(to) = solution.get_mut(stop) {
+                *to = x;
+            }
+        }
+        solution
+    }
+
+    /// x ≥ 0 with W x + b ≥ 0 of the stops of a set, of which one or the other is 0 at each, and the set of those where
+    /// W x + b is; nothing where there is none.
+    pub fn complementary(&self, set: u32, b: &Each<T>) -> Option<(u32, Each<T>)> {
+        let mut active = 0;
+        for _ in 0..MOST_PIVOTS {
+            let x = self.solve(active, b);
+            let Some(wrong) = self.least_wrong(set, active, b, &x) else { return Some((active, x)) };
+            active ^= bit(wrong);
+        }
+        None
+    }
+
+    /// The first stop of a set that is pulled, or that is left free and closes.
+    fn least_wrong(&self, set: u32, active: u32, b: &Each<T>, x: &Each<T>) -> Option<usize> {
+        let largest = x.iter().fold(0.0_f64, |largest, x| largest.max(x.to_f64().abs()));
+        (0..self.stops).filter(|stop| has(set, *stop)).find(|&stop| {
+            let own = x.get(stop).map_or(0.0, |x| x.to_f64());
+            if has(active, stop) && own < -ROUNDING * largest {
+                return true;
+            }
+            // an active one that depends on others may close all the same: nothing answers that
+            let b = b.get(stop).map_or(0.0, |b| b.to_f64());
+            let (mut rate, mut size) = (b, b.abs());
+            for (by, x) in x.iter().enumerate().take(self.stops) {
+                let term = self.mobility(stop, by).to_f64() * x.to_f64();
+                (rate, size) = (rate + term, size + term.abs());
+            }
+            rate < -ROUNDING * size
+        })
+    }
+
+    /// Adds Σ Y x to velocities or accelerations.
+    pub fn add(&self, x: &Each<T>, to: &mut [T]) {
+        for (stop, &x) in x.iter().enumerate().take(self.stops) {
+            if x.to_f64() != 0.0 || T::ORDER > 0 {
+                for (to, y) in to.iter_mut().zip(self.response(stop)) {
+                    *to = *to + x * *y;
+                }
+            }
+        }
+    }
+
+    /// W x, how impulses change the rates of the gaps.
+    pub fn rates(&self, x: &Each<T>) -> Each<T> {
+        core::array::from_fn(|of| {
+            let terms = x.iter().enumerate().take(self.stops);
+            terms.fold(T::default(), |sum, (by, &x)| sum + self.mobility(of, by) * x)
+        })
+    }
+}
+
+/// Gauss's elimination of the first rows, symmetric and positive semidefinite, with their right sides behind them.
+fn eliminate<T: Real>(rows: &mut [[T; MOST_STOPS + 1]; MOST_STOPS], count: usize) -> Each<T> {
+    let diagonal: [f64; MOST_STOPS] =
+        core::array::from_fn(|at| rows.get(at).and_then(|row| row.get(at)).map_or(0.0, |d| d.to_f64()));
+    let entry = |rows: &[[T; MOST_STOPS + 1]; MOST_STOPS], row: usize, column: usize| {
+        rows.get(row).and_then(|row| row.get(column)).copied().unwrap_or_default()
+    };
+    let mut is_pivot = [false; MOST_STOPS];
+    for at in 0..count {
+        let pivot = entry(rows, at, at);
+        let least = DEPENDENT * diagonal.get(at).copied().unwrap_or_default();
+        let is_independent = pivot.to_f64() > least;
+        if let Some(is_pivot) = is_pivot.get_mut(at) {
+            *is_pivot = is_independent;
+        }
+        let Some(&above) = rows.get(at).filter(|_| is_independent) else { continue };
+        for (_, row) in rows.iter_mut().enumerate().filter(|(other, _)| *other != at).take(count) {
+            let factor = row.get(at).copied().unwrap_or_default() / pivot;
+            for (entry, above) in row.iter_mut().zip(above) {
+                *entry = *entry - factor * above;
+            }
+        }
+    }
+    core::array::from_fn(|at| match is_pivot.get(at) {
+        Some(true) if at < count => entry(rows, at, MOST_STOPS) / entry(rows, at, at),
+        _ => T::default(),
+    })
+}
+
+/// True if a set has a stop.
+pub(crate) fn has(set: u32, stop: usize) -> bool {
+    set & bit(stop) != 0
+}
+
+/// The set of one stop.
+pub(crate) fn bit(stop: usize) -> u32 {
+    u32::try_from(stop).ok().and_then(|stop| 1_u32.checked_shl(stop)).unwrap_or(0)
+}
+
+/// The stops that are rested on.
+pub(crate) fn held<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> u32 {
+    let is_held = |memory: usize| inputs.get(memory).is_some_and(|held| held.to_f64() > 0.5);
+    let stops = equations.info().stops.iter().enumerate();
+    stops.filter(|(_, stop)| is_held(stop.memory)).fold(0, |set, (at, _)| set | bit(at))
+}
+
+/// Adds to accelerations what the stops do that are rested on, and to multipliers, if they are given; the pivot growth
+/// of the responses.
+pub fn press<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &[T],
+    acceleration: &mut [T],
+    multipliers: Option<&mut [T]>,
+) -> T {
+    pressed(equations, at, inputs, acceleration, multipliers).0
+}
+
+/// The same with the forces λ at the stops.
+pub(crate) fn pressed<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &[T],
+    acceleration: &mut [T],
+    multipliers: Option<&mut [T]>,
+) -> (T, Each<T>) {
+    let none = (T::default(), [T::default(); MOST_STOPS]);
+    let held = held(equations, inputs);
+    if held == 0 {
+        return none;
+    }
+    let gaps = Gaps::of(equations, at, acceleration);
+    let found = Contacts::at(equations, (at.t, at.q), |contacts| {
+        let forces = contacts.solve(held, &gaps.acceleration);
+        contacts.add(&forces, acceleration);
+        if let Some(multipliers) = multipliers {
+            for (stop, &force) in forces.iter().enumerate().take(contacts.stops) {
+                for (to, y) in multipliers.iter_mut().zip(contacts.reactions(stop)) {
+                    *to = *to + force * *y;
+                }
+            }
+        }
+        (contacts.growth(), forces)
+    });
+    found.unwrap_or(none)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use super::{Contacts, MOST_STOPS};
+
+    /// Responses that have W alone.
+    fn solved<const N: usize>(w: [[f64; N]; N], b: [f64; N]) -> Option<(u32, [f64; N])> {
+        let mut values: Vec<f64> = w.into_iter().flatten().collect();
+        values.push(0.0);
+        let contacts = Contacts { stops: N, coordinates: 0, constraints: 0, values: &values };
+        let mut all = [0.0; MOST_STOPS];
+        all[..N].copy_from_slice(&b);
+        let (active, x) = contacts.complementary((1 << N) - 1, &all)?;
+        Some((active, core::array::from_fn(|at| x[at])))
+    }
+
+    #[test]
+    fn one_or_the_other_is_zero() {
+        assert_eq!(solved([[2.0]], [-3.0]), Some((1, [1.5])));
+        assert_eq!(solved([[2.0]], [3.0]), Some((0, [0.0])));
+        // both are pressed, but the first one holds the second one off
+        assert_eq!(solved([[1.0, 0.9], [0.9, 1.0]], [-1.0, -0.5]), Some((1, [1.0, 0.0])));
+        assert_eq!(solved([[1.0, -0.5], [-0.5, 1.0]], [-1.0, 0.25]), Some((3, [7.0 / 6.0, 1.0 / 3.0])));
+    }
+
+    #[test]
+    fn stops_that_press_one_way_share() {
+        // a third corner on the line of two others
+        let w = [[2.0, 0.0, 1.0], [0.0, 2.0, 1.0], [1.0, 1.0, 1.0]];
+        let (_, x) = solved(w, [-2.0, -2.0, -2.0]).unwrap();
+        let rates: [f64; 3] =
+            core::array::from_fn(|of| (0..3).map(|by| w[of][by] * x[by]).sum::<f64>() - 2.0);
+        assert!(
+            x.iter().all(|x| *x >= 0.0) && rates.iter().all(|rate| rate.abs() < 1e-14),
+            "{x:?} {rates:?}"
+        );
+        // the wrong way round there is nothing
+        assert_eq!(solved([[1.0, -1.0], [-1.0, 1.0]], [-1.0, -1.0]), None);
+    }
+}
