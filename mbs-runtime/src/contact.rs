@@ -101,13 +101,13 @@ impl<'a, T: Real> Contacts<'a, T> {
         self.values.get(from..from + self.coordinates).unwrap_or_default()
     }
 
-    /// What a unit impulse at a stop adds to the multipliers.
+    /// The multipliers of a unit impulse at a stop.
     pub fn reactions(&self, stop: usize) -> &'a [T] {
         let from = stop * self.each() + self.coordinates;
         self.values.get(from..from + self.constraints).unwrap_or_default()
     }
 
-    /// How an impulse at one stop changes the rate of the gap of another.
+    /// The change of the rate of one gap by a unit impulse at a stop.
     pub fn mobility(&self, of: usize, by: usize) -> T {
         let at = self.stops * self.each() + by * self.stops + of;
         self.values.get(at).copied().unwrap_or_default()
@@ -163,12 +163,12 @@ impl<'a, T: Real> Contacts<'a, T> {
     fn least_wrong(&self, set: u32, active: u32, b: &Each<T>, x: &Each<T>) -> Option<usize> {
         let largest = x.iter().fold(0.0_f64, |largest, x| largest.max(x.to_f64().abs()));
         (0..self.stops).filter(|stop| has(set, *stop)).find(|&stop| {
-            let own = x.get(stop).map_or(0.0, |x| x.to_f64());
+            let own = number(x, stop);
             if has(active, stop) && own < -ROUNDING * largest {
                 return true;
             }
             // an active one that depends on others may close all the same: nothing answers that
-            let b = b.get(stop).map_or(0.0, |b| b.to_f64());
+            let b = number(b, stop);
             let (mut rate, mut size) = (b, b.abs());
             for (by, x) in x.iter().enumerate().take(self.stops) {
                 let term = self.mobility(stop, by).to_f64() * x.to_f64();
@@ -237,11 +237,21 @@ pub(crate) fn bit(stop: usize) -> u32 {
     u32::try_from(stop).ok().and_then(|stop| 1_u32.checked_shl(stop)).unwrap_or(0)
 }
 
+/// The set of those of so many stops for which something holds.
+pub(crate) fn those(count: usize, holds: impl Fn(usize) -> bool) -> u32 {
+    (0..count).filter(|stop| holds(*stop)).fold(0, |set, stop| set | bit(stop))
+}
+
+/// The number of a stop, without derivatives.
+pub(crate) fn number<T: Real>(of: &Each<T>, stop: usize) -> f64 {
+    of.get(stop).map_or(0.0, |x| x.to_f64())
+}
+
 /// The stops that are rested on.
 pub(crate) fn held<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> u32 {
-    let is_held = |memory: usize| inputs.get(memory).is_some_and(|held| held.to_f64() > 0.5);
-    let stops = equations.info().stops.iter().enumerate();
-    stops.filter(|(_, stop)| is_held(stop.memory)).fold(0, |set, (at, _)| set | bit(at))
+    let stops = equations.info().stops;
+    let memory = |stop: usize| inputs.get(stops.get(stop)?.memory).map(|held| held.to_f64());
+    those(stops.len(), |stop| memory(stop).is_some_and(|held| held > 0.5))
 }
 
 /// Adds to accelerations what the stops do that are rested on, and to multipliers, if they are given; the pivot growth

@@ -3,7 +3,7 @@
 use super::dynamics::Dynamics;
 use super::effort::Effort;
 use crate::Real;
-use crate::contact::{Each, Gaps, MOST_STOPS, bit, has, held, pressed};
+use crate::contact::{Each, Gaps, MOST_STOPS, bit, has, held, pressed, those};
 use crate::equations::{At, Equations};
 use crate::info::{Direction, MOST_EVENTS};
 use crate::vectors;
@@ -79,21 +79,17 @@ pub(super) fn value<D: Dynamics>(
 
 /// The stops whose events are among these.
 pub(super) fn among(happened: u64, count: usize) -> u32 {
-    (0..count).filter(|stop| happened & watched_bit(*stop) != 0).fold(0, |set, stop| set | bit(stop))
+    those(count, |stop| happened & watched_of(bit(stop)) != 0)
 }
 
-/// The bits of so many stops.
-pub(super) fn all_bits(stops: usize) -> u64 {
-    (0..stops).fold(0, |set, stop| set | watched_bit(stop))
-}
-
-pub(super) fn watched_bit(stop: usize) -> u64 {
-    1 << place(stop)
+/// The bits of a set of stops among those of what is watched, from the last one down.
+pub(super) fn watched_of(stops: u32) -> u64 {
+    u64::from(stops).reverse_bits()
 }
 
 /// The places of what is watched: values, and behind them stops from the last place on.
 pub(super) fn watched(count: usize, stops: usize) -> impl Iterator<Item = (usize, u64)> {
-    bits(count).chain((0..stops).map(|stop| (place(stop), watched_bit(stop))))
+    bits(count).chain((0..stops).map(|stop| (place(stop), watched_of(bit(stop)))))
 }
 
 /// A gap that opens is no event, nor is a force that grows.

@@ -2,7 +2,7 @@
 
 use super::dynamics::Dynamics;
 use super::gaps::Stopping;
-use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, held, pressed};
+use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, held, number, pressed, those};
 use crate::equations::At;
 use crate::{Real, vectors};
 
@@ -37,6 +37,11 @@ impl<D: Dynamics> Jump<'_, D> {
         At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
     }
 
+    /// The number of stops.
+    fn count(&self) -> usize {
+        self.dynamics.equations().info().stops.len()
+    }
+
     /// The gaps, with the accelerations that there are without stops.
     pub fn gaps(&mut self) -> Gaps<D::Real> {
         let Self { dynamics, inputs, t, q, v, a } = self;
@@ -59,14 +64,11 @@ impl<D: Dynamics> Jump<'_, D> {
         }
         let gaps = Gaps::of(equations, at, a.as_ref());
         let slopes = self.slopes();
-        let those = |is: &dyn Fn(usize) -> bool| {
-            (0..equations.info().stops.len()).filter(|stop| is(*stop)).fold(0, |set, stop| set | bit(stop))
-        };
-        let number = |of: &Each<D::Real>, stop: usize| of.get(stop).map_or(0.0, |x| x.to_f64());
-        let pulls = those(&|stop| has(held, stop) && number(&forces, stop) < 0.0);
-        let pushes = those(&|stop| has(held, stop) && number(&forces, stop) > 0.0);
-        let closed = those(&|stop| {
-            let least = CLOSED * size * slopes.get(stop).copied().unwrap_or_default();
+        let count = equations.info().stops.len();
+        let pulls = those(count, |stop| has(held, stop) && number(&forces, stop) < 0.0);
+        let pushes = those(count, |stop| has(held, stop) && number(&forces, stop) > 0.0);
+        let closed = those(count, |stop| {
+            let least = CLOSED * size * number(&slopes, stop);
             !has(held, stop) && number(&gaps.gap, stop) <= least && number(&gaps.rate, stop) <= 0.0
         });
         [pulls, pushes, closed]
@@ -83,7 +85,7 @@ impl<D: Dynamics> Jump<'_, D> {
         vectors::largest(info.of_bodies(self.q.as_ref())).1.to_f64()
     }
 
-    /// How much a gap changes with all coordinates by 1.
+    /// Σ |∂g/∂q| of every gap.
     pub fn slopes(&self) -> Each<f64> {
         let slopes = self.contacts(|contacts| core::array::from_fn(|stop| contacts.slope(stop)));
         slopes.unwrap_or([0.0; MOST_STOPS])
@@ -107,9 +109,7 @@ impl<D: Dynamics> Jump<'_, D> {
     pub fn hit(&mut self, held: u32, size: f64) -> u32 {
         let gaps = self.gaps();
         let still = self.still(&gaps.acceleration, size).map(|still| JUMPS * still);
-        let count = self.dynamics.equations().info().stops.len();
-        let hit = (0..count).filter(|stop| has(held, *stop) && !is_still(&gaps.rate, &still, *stop));
-        hit.fold(0, |set, stop| set | bit(stop))
+        those(self.count(), |stop| has(held, stop) && !is_still(&gaps.rate, &still, stop))
     }
 
     /// Moves velocities, or positions, so that what is given of the gaps of a set becomes 0.
@@ -135,7 +135,7 @@ pub(super) struct Outcome<T> {
     pub closed: u32,
     /// Λ
     pub impulses: Each<T>,
-    /// How long it takes until the next impact, as far as the present motion tells.
+    /// The time until the next impact in s, as far as the present motion tells.
     pub flight: f64,
 }
 
@@ -144,9 +144,7 @@ impl<D: Dynamics> Jump<'_, D> {
     fn pressed(&mut self, closed: u32, size: f64) -> Result<Gaps<D::Real>, usize> {
         let mut gaps = self.gaps();
         let still = self.still(&gaps.acceleration, size);
-        let count = self.dynamics.equations().info().stops.len();
-        let resting = (0..count).filter(|stop| has(closed, *stop) && is_still(&gaps.rate, &still, *stop));
-        let resting = resting.fold(0, |set, stop| set | bit(stop));
+        let resting = those(self.count(), |stop| has(closed, stop) && is_still(&gaps.rate, &still, stop));
         let solved = self.contacts(|contacts| {
             let (_, forces) = contacts.complementary(resting, &gaps.acceleration)?;
             Some(contacts.rates(&forces))
@@ -166,30 +164,27 @@ impl<D: Dynamics> Jump<'_, D> {
         longest_step: f64,
         stopping: &mut Stopping,
     ) -> Result<Outcome<D::Real>, usize> {
-        let count = self.dynamics.equations().info().stops.len();
-        let gaps = self.gaps();
-        let number = |of: &Each<D::Real>, stop: usize| of.get(stop).map_or(0.0, |x| x.to_f64());
+        let (count, gaps) = (self.count(), self.gaps());
         stopping.size = stopping.size.max(self.size());
         let (size, slopes) = (CLOSED * stopping.size, self.slopes());
-        let is_closed = |stop: &usize| {
-            let soon = SOON * longest_step * (-number(&gaps.rate, *stop)).max(0.0);
-            number(&gaps.gap, *stop) <= slopes.get(*stop).map_or(0.0, |slope| size * slope) + soon
+        let is_closed = |stop: usize| {
+            let soon = SOON * longest_step * (-number(&gaps.rate, stop)).max(0.0);
+            number(&gaps.gap, stop) <= size * number(&slopes, stop) + soon
         };
-        let closed = held | reached | (0..count).filter(is_closed).fold(0, |set, stop| set | bit(stop));
+        let closed = held | reached | those(count, is_closed);
         let still = self.still(&gaps.acceleration, stopping.size);
         let (mut impulses, mut flight) = ([D::Real::default(); MOST_STOPS], f64::INFINITY);
         let mut is_impact = false;
-        for number_of in 1..=IN_SEQUENCE {
+        for turn in 1..=IN_SEQUENCE {
             let rate = self.gaps().rate;
-            let opens = |stop: &usize| number(&rate, *stop) > 0.0 && !is_still(&rate, &still, *stop);
-            let closing = (0..count).filter(|stop| has(closed, *stop) && !opens(stop));
-            let closing = closing.fold(0, |set, stop| set | bit(stop));
-            let is_hit = |stop: usize| has(closing, stop) && !is_still(&rate, &still, stop);
-            if !(0..count).any(is_hit) {
+            let moves = |stop: usize| !is_still(&rate, &still, stop);
+            let closing =
+                those(count, |stop| has(closed, stop) && !(number(&rate, stop) > 0.0 && moves(stop)));
+            if those(count, |stop| has(closing, stop) && moves(stop)) == 0 {
                 break;
             }
             // an accumulation within one moment ends as others do
-            let settled = stopping.stuck | if number_of == IN_SEQUENCE { closing } else { 0 };
+            let settled = stopping.stuck | if turn == IN_SEQUENCE { closing } else { 0 };
             let (more, next) = self.impact(closing, &rate, (settled, stopping))?;
             for (impulse, more) in impulses.iter_mut().zip(more) {
                 *impulse = *impulse + more;
@@ -200,9 +195,8 @@ impl<D: Dynamics> Jump<'_, D> {
         let pulling = if is_impact { 0 } else { reached & held & !stopping.stuck };
         let rates = self.gaps().rate;
         let stuck = core::mem::take(&mut stopping.stuck);
-        let rests = |stop: &usize| is_still(&rates, &still, *stop) || has(stuck, *stop);
-        let resting = (0..count).filter(|stop| has(closed & !pulling, *stop) && rests(stop));
-        let resting = resting.fold(0, |set, stop| set | bit(stop));
+        let rests = |stop: usize| is_still(&rates, &still, stop) || has(stuck, stop);
+        let resting = those(count, |stop| has(closed & !pulling, stop) && rests(stop));
         self.clear(resting, &gaps.gap, true);
         let rates = self.gaps().rate;
         self.clear(resting, &rates, false);
@@ -251,9 +245,7 @@ impl<D: Dynamics> Jump<'_, D> {
                 let (Some([flight, height]), Some(longest)) = (flight, stopping.longest.get_mut(stop)) else {
                     continue;
                 };
-                if flight < law(stop, 1).to_f64() * *longest
-                    || height < slopes.get(stop).map_or(0.0, |slope| lowest * slope)
-                {
+                if flight < law(stop, 1).to_f64() * *longest || height < lowest * number(&slopes, stop) {
                     more |= bit(stop);
                 }
                 *longest = longest.max(flight);
@@ -270,8 +262,7 @@ impl<D: Dynamics> Jump<'_, D> {
 
 /// True if a gap does not move.
 fn is_still<T: Real>(rates: &Each<T>, still: &Each<f64>, stop: usize) -> bool {
-    let [rate, still] = [rates.get(stop).map(|rate| rate.to_f64()), still.get(stop).copied()];
-    rate.unwrap_or_default().abs() <= still.unwrap_or_default()
+    number(rates, stop).abs() <= number(still, stop)
 }
 
 /// The first stop of a set.
@@ -279,11 +270,9 @@ fn first(set: u32) -> usize {
     set.trailing_zeros() as usize
 }
 
-/// How long it takes until a gap closes again, which begins to open, and how far it opens, as far as its second
-/// derivative tells.
+/// The time in s until a gap that opens is closed again, and its largest value until then, by its second derivative.
 fn flight<T: Real>(gaps: &Gaps<T>, stop: usize) -> Option<[f64; 2]> {
-    let [rate, acceleration] =
-        [&gaps.rate, &gaps.acceleration].map(|of| of.get(stop).map_or(0.0, |x| x.to_f64()));
+    let [rate, acceleration] = [&gaps.rate, &gaps.acceleration].map(|of| number(of, stop));
     (rate > 0.0 && acceleration < 0.0)
         .then(|| [-2.0 * rate / acceleration, -0.5 * rate * rate / acceleration])
 }

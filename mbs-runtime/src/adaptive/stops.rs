@@ -5,10 +5,10 @@
 //! at: until then the last step is known with the motion that it had.
 
 use super::events::{Happened, Watched};
-use super::gaps::{Stopping, all_bits, among, watched_bit};
+use super::gaps::{Stopping, among, watched_of};
 use super::jump::{Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
-use crate::contact::{bit, has, held};
+use crate::contact::{bit, has, held, those};
 use crate::{Error, Real};
 
 /// A start is behind a stop by more than this share of the size of the coordinates.
@@ -50,15 +50,14 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// The events at stops are no news where a program asks for its own.
     pub(super) fn forget_stops(&mut self) {
-        self.happened.due &= !all_bits(self.stop_count());
+        self.happened.due &= !watched_of(those(self.stop_count(), |_| true));
     }
 
     /// Nor is it where a stop is left.
     pub(super) fn forget_releases(&mut self) {
         if self.stop_count() > 0 {
             let held = self.with_jump(|jump| held(jump.dynamics.equations(), jump.inputs));
-            let left = (0..self.stop_count()).filter(|stop| has(held, *stop));
-            self.happened.due &= !left.fold(0, |set, stop| set | watched_bit(stop));
+            self.happened.due &= !watched_of(held);
         }
     }
 
@@ -116,8 +115,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         let touched = self.with_jump(|jump| {
             let gaps = jump.gaps().gap.map(Real::to_f64);
-            let is_touched = |stop: &usize| gaps.get(*stop) <= allowed.get(*stop);
-            (0..stops.len()).filter(is_touched).fold(0, |set, stop| set | bit(stop))
+            those(stops.len(), |stop| gaps.get(stop) <= allowed.get(stop))
         });
         if touched == 0 { Ok(()) } else { self.jump_at(touched) }
     }
@@ -221,10 +219,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         *before = now.clone();
         self.between.begin(false);
         let Happened { all, rising, due, judged, turned, .. } = self.happened;
-        let ours = all_bits(stops.len());
+        let ours = watched_of(those(stops.len(), |_| true));
         // an open stop that is closed still is left from its event; the force at another one has not been looked at
-        let left = (0..stops.len()).filter(|stop| has(closed & !now_held, *stop));
-        let left = left.fold(0, |set, stop| set | watched_bit(stop));
+        let left = watched_of(closed & !now_held);
         self.happened = Happened {
             all: all & !ours | left,
             rising: rising & !ours,

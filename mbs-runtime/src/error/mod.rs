@@ -143,7 +143,7 @@ pub enum Error {
     },
     /// Stops, for what sees no impact.
     Stops {
-        /// What sees none.
+        /// The name of a method or an analysis.
         what: &'static str,
         /// The first stop.
         stop: &'static str,

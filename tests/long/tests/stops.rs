@@ -82,7 +82,7 @@ fn random(number: u64) -> (String, usize) {
     (text + "}\n", stops as usize)
 }
 
-/// Whatever is hit, and however many at once: energy does not grow, no gap opens inwards, and a run ends in its time.
+/// Energy does not grow, no gap becomes negative, and a run ends in its time.
 #[test]
 fn random_impacts_take_energy_and_keep_gaps() {
     let mut impacts = 0;

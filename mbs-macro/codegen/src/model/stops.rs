@@ -2,7 +2,7 @@
 //!
 //! A stop is a gap g(q, t) that is never negative. It has no row among the constraints: while it is open, nothing is
 //! computed of it. A run that finds it closed asks for the response of the mechanism to an impulse along ∂g/∂q.
-//! Whether it is rested on, and the impulse that it has given, are memories, which every path has.
+//! A memory is 1 while it is rested on, and another one sums up its impulses: every path has memories.
 
 use std::collections::BTreeMap;
 

@@ -143,7 +143,7 @@ fn table(request: &Request<'_>, runs: &[(String, Recording)]) -> Result<Table, E
     Ok(table)
 }
 
-/// What a row is called, and how many rows before it are.
+/// The name of a row, and the number of rows of that name before it.
 type Key = (String, usize);
 
 /// The rows of a summary with their keys.

@@ -17,8 +17,7 @@ use crate::{Column, Table, Unit};
 const UNCERTAIN: f64 = 0.5;
 /// Residuals are in doubt if their autocorrelation is more than so many of its standard errors.
 const DEPENDENT: f64 = 4.0;
-/// What is left over of exact data is no noise but the error of runs and the digits of a file: up to this share of the
-/// largest value.
+/// Residuals up to this share of the largest value are those of exact data: the error of runs and the digits of a file.
 const EXACT: f64 = 1e-6;
 /// Given deviations are in doubt if χ² is off its mean by more than so many standard deviations of χ².
 const UNLIKELY: f64 = 5.0;

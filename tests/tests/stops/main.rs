@@ -1,0 +1,132 @@
+//! Stops: impacts against closed forms, rests that hold and end, several at once. Many impacts and random ones are in
+//! `tests/long`.
+#![allow(clippy::expect_used, reason = "helpers of tests")]
+
+mod rests;
+mod several;
+
+use mbs_live::{Prepared, Text};
+use mbs_runtime::{
+    Adaptive, Dop853, Dual, Error, Mechanism, Real, Sampled, Simulation, System, Tolerances, mechanism,
+};
+
+const TIGHT: Tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_step: f64::INFINITY, first_step: None };
+
+mechanism! {
+    /// A ball that falls from a height of 1 m.
+    Ball {
+        dof = 1;
+        param e = 0.7;
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 2 [kg]; }
+        stop floor: y >= 0 [m] { restitution = e; }
+        start { y = 1 [m]; }
+    }
+}
+
+/// It falls for t₀ = √(2h/g), and flies 2 eⁿ t₀ after its n-th impact. The flights that are shorter than 10⁻⁶ of the
+/// first one are not flown: from the accumulation of impacts on, at t₀ (1 + e)/(1 − e), the ball rests.
+#[test]
+fn impacts_of_a_ball_are_those_of_the_closed_form() -> Result<(), Error> {
+    let fall = (2.0_f64 / 9.81).sqrt();
+    for e in [0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99] {
+        let ball = Ball::new(BallParameters { e })?;
+        let mut run = Adaptive::builder(ball).tolerances(TIGHT).build()?;
+        let (mut expected, mut count, mut sum) = (fall, 0_i32, 0.0);
+        while run.inputs().floor == 0.0 {
+            run.step()?;
+            let impulse = run.inputs().floor_impulse;
+            if impulse > sum {
+                // and what roundings of times add up to
+                let allowed = 1e-12 + f64::from(count) * f64::EPSILON * expected;
+                assert!((run.time() - expected).abs() < allowed, "{e}: {} {expected}", run.time());
+                // the momentum of before and behind
+                let before = 2.0 * 9.81 * fall * e.powi(count);
+                let is_last = run.inputs().floor == 1.0;
+                let changed = if is_last { before } else { before * (1.0 + e) };
+                assert!((impulse - sum - changed).abs() < 1e-11, "{e}: {} {changed}", impulse - sum);
+                sum = impulse;
+                count += 1;
+                expected += 2.0 * fall * e.powi(count);
+            }
+        }
+        let flights = (1e-6_f64.ln() / e.ln()).ceil() as i32;
+        assert!((count - 1 - flights).abs() <= 1, "{e}: {count} impacts, {flights} flights");
+        let end = fall * (1.0 + e) / (1.0 - e);
+        let left = 2e-6 * fall * e / (1.0 - e);
+        assert!(run.time() <= end && end - run.time() < 1.01 * left, "{e}: {} {end}", run.time());
+        run.advance_to(1000.0)?;
+        let state = run.state();
+        assert!(state.q.y == 0.0 && state.v.y == 0.0 && run.inputs().floor == 1.0, "{e}: {state:?}");
+    }
+    // the number that others give for e = 0.7
+    assert!((fall * 1.7 / 0.3 - 2.558_633_966).abs() < 1e-9);
+    Ok(())
+}
+
+/// y at the end is v τ − g τ²/2, with v and τ of the second flight: the derivative by e goes through two impacts, whose
+/// times it changes.
+#[test]
+fn derivatives_go_through_impacts() -> Result<(), Error> {
+    let end = 1.5;
+    let height = |e: Dual<f64, 1>| {
+        let (g, fall) = (9.81, (2.0_f64 / 9.81).sqrt());
+        let after = |flight: Dual<f64, 1>| flight * Dual::constant(2.0 * fall);
+        let begin = Dual::constant(fall) + after(e);
+        let (speed, time) = (e * e * Dual::constant(g * fall), Dual::constant(end) - begin);
+        speed * time - Dual::constant(0.5 * g) * time * time
+    };
+    let e = Dual::variable(0.7, 0);
+    let run = Adaptive::builder(Ball::new(BallParameters { e })?);
+    let mut run = run.scheme::<Dop853>().tolerances(TIGHT).build()?;
+    run.advance_to(end)?;
+    let (found, expected) = (run.state().q.y, height(e));
+    assert!((found.to_f64() - expected.to_f64()).abs() < 1e-10, "{found:?} {expected:?}");
+    assert!((found.partial(0) - expected.partial(0)).abs() < 1e-8, "{found:?} {expected:?}");
+    Ok(())
+}
+
+/// The ball as a text takes the steps of the type, to the bit.
+#[test]
+fn a_text_bounces_as_a_type() -> Result<(), Error> {
+    let text = "Ball {
+        dof = 1;
+        param e = 0.7;
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 2 [kg]; }
+        stop floor: y >= 0 [m] { restitution = e; }
+        start { y = 1 [m]; }
+    }";
+    let live = Text::declaration("ball.mbs", text).compile().expect("a ball");
+    let mut typed = Sampled::new(Adaptive::builder(Ball::declared()).tolerances(TIGHT).build()?, 0.1)?;
+    let mut read = Sampled::new(Adaptive::builder(Prepared::new(&live)).tolerances(TIGHT).build()?, 0.1)?;
+    for _ in 0..30 {
+        typed.step()?;
+        read.step()?;
+        let mut found = [[0.0; 4]; 2];
+        for (found, run) in found.iter_mut().zip([&typed as &dyn System, &read]) {
+            let [y, v, inputs @ ..] = found;
+            let (mut q, mut rates) = ([0.0], [0.0]);
+            run.state(&mut q, &mut rates);
+            run.inputs(inputs);
+            (*y, *v) = (q[0], rates[0]);
+        }
+        assert_eq!(found[0].map(f64::to_bits), found[1].map(f64::to_bits), "{found:?}");
+    }
+    Ok(())
+}
+
+/// What sees no impact says so.
+#[test]
+fn constant_steps_refuse_stops() {
+    let refused = Simulation::new(Ball::declared(), 1e-3).expect_err("an error");
+    assert!(
+        refused
+            .to_string()
+            .starts_with("a run with constant steps does not see the impacts of the stop `floor`")
+    );
+    let mut behind = Ball::<f64>::declared().declared_start();
+    behind.q.y = -0.1;
+    let refused = Adaptive::builder(Ball::declared()).from_state(behind).build().expect_err("an error");
+    assert!(refused.to_string().contains("is behind the stop `floor`: its gap is -0.1"), "{refused}");
+}

@@ -1,0 +1,200 @@
+//! Several stops at once, and stops that nothing answers.
+
+use mbs_runtime::{Adaptive, Components, Dop853, Error, Mechanism, Tolerances, mechanism};
+
+use super::TIGHT;
+
+mechanism! {
+    /// Three balls in a row, of which the last two touch.
+    Row {
+        dof = 3;
+        param e = 1;
+        const r = 10 [mm];
+        body one (x = x1) { mass = 1 [kg]; }
+        body two (x = x2) { mass = 1 [kg]; }
+        body three (x = x3) { mass = 1 [kg]; }
+        stop first: x2 - x1 >= 2*r { restitution = e; }
+        stop second: x3 - x2 >= 2*r { restitution = e; }
+        start { x1 = -0.1 [m]; der(x1) = 1 [m/s]; x2 = 0; x3 = 20 [mm]; }
+    }
+}
+
+/// Newton's law at all contacts at once, ġ⁺ ≥ −e ġ⁻ with an impulse only where it is equal: the contact of two and
+/// three opens by nothing, as it did not close. With e = 1 the balls have −1/3, 2/3 and 2/3 of the velocity.
+#[test]
+fn simultaneous_impacts_follow_newtons_law() -> Result<(), Error> {
+    let mut run = Adaptive::builder(Row::declared()).tolerances(TIGHT).build()?;
+    run.advance_to(0.1)?;
+    let v = run.state().v;
+    let expected = [-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    for (found, expected) in [v.x1, v.x2, v.x3].into_iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-12, "{v:?}");
+    }
+    let inputs = run.inputs();
+    assert!(
+        (inputs.first_impulse - 4.0 / 3.0).abs() < 1e-12 && (inputs.second_impulse - 2.0 / 3.0).abs() < 1e-12
+    );
+    Ok(())
+}
+
+/// One that touches and opens is not pulled shut: the first two balls have their impact, and then the second one may
+/// follow the third. No energy comes of it.
+#[test]
+fn contacts_that_open_have_no_part_in_an_impact() -> Result<(), Error> {
+    let mut row = Row::<f64>::declared().declared_start();
+    (row.q.x1, row.v.x1, row.v.x3) = (-0.02, 1.0, 0.5);
+    let mut run = Adaptive::builder(Row::declared()).from_state(row).tolerances(TIGHT).build()?;
+    run.advance_to(0.2)?;
+    let v = run.state().v;
+    // equal balls that lose nothing change velocities: 1 and 0, then 1 and 0.5
+    for (found, expected) in [v.x1, v.x2, v.x3].into_iter().zip([0.0, 0.5, 1.0]) {
+        assert!((found - expected).abs() < 1e-12, "{v:?}");
+    }
+    Ok(())
+}
+
+mechanism! {
+    /// A block that spins in its fall: one step of its motion is many turns of its corners.
+    Spinning {
+        dof = 3;
+        gravity = (0, -9.81) [m/s^2];
+        body block (x, y, phi) { mass = 2 [kg]; inertia = 0.02 [kg*m^2]; }
+        point a on block = (-0.15, -0.05) [m];
+        point b on block = (0.15, -0.05) [m];
+        point c on block = (0.15, 0.05) [m];
+        point d on block = (-0.15, 0.05) [m];
+        stop at_a: block.a.y >= 0 [m] { restitution = 0.5; }
+        stop at_b: block.b.y >= 0 [m] { restitution = 0.5; }
+        stop at_c: block.c.y >= 0 [m] { restitution = 0.5; }
+        stop at_d: block.d.y >= 0 [m] { restitution = 0.5; }
+        start { y = 3 [m]; der(phi) = 60 [rad/s]; }
+    }
+}
+
+#[test]
+fn corners_of_what_spins_are_seen() -> Result<(), Error> {
+    let corners = [(-0.15, -0.05), (0.15, -0.05), (0.15, 0.05), (-0.15, 0.05)];
+    for speed in [3.0, 17.0, 60.0, -75.0] {
+        let gap = |t: f64| {
+            let (sine, cosine) = (speed * t).sin_cos();
+            let heights = corners.map(|(x, y)| 3.0 - 4.905 * t * t + sine * x + cosine * y);
+            heights.into_iter().fold(f64::INFINITY, f64::min)
+        };
+        let mut t = 0.0;
+        while gap(t) > 0.0 {
+            t += 1e-6;
+        }
+        let mut state = Spinning::<f64>::declared().declared_start();
+        state.v.phi = speed;
+        let mut run = Adaptive::builder(Spinning::declared()).from_state(state).build()?;
+        let hit = |run: &Adaptive<Spinning<f64>>| {
+            let inputs = run.inputs();
+            inputs.at_a_impulse + inputs.at_b_impulse + inputs.at_c_impulse + inputs.at_d_impulse > 0.0
+        };
+        while !hit(&run) {
+            run.step()?;
+        }
+        assert!((run.time() - t).abs() < 2e-6, "{speed}: {} {t}", run.time());
+    }
+    Ok(())
+}
+
+mechanism! {
+    /// A ram that a drive leads against its end.
+    Driven {
+        dof = 0;
+        body ram (x) { mass = 1 [kg]; }
+        drive push: x = 0.1 [m/s]*t;
+        stop end: x <= 0.2 [m] { restitution = 0.5; }
+    }
+}
+
+/// Nothing answers that, and nothing goes on through the stop.
+#[test]
+fn a_drive_against_a_stop_ends_the_run() -> Result<(), Error> {
+    let mut run = Adaptive::builder(Driven::declared()).build()?;
+    let error = run.advance_to(3.0);
+    assert!(matches!(error, Err(Error::Impact { stop: "end", t }) if (t - 2.0).abs() < 1e-9), "{error:?}");
+    Ok(())
+}
+
+mechanism! {
+    /// A slider-crank whose slider has 1 mm of play in its guide (Flores, Leine, Glocker 2010, without friction).
+    Clearance {
+        dof = 3;
+        const l1 = 0.153 [m];
+        const l2 = 0.306 [m];
+        const a = 0.05 [m];
+        const b = 0.025 [m];
+        const d = 0.026 [m];
+        gravity = (0, -9.81) [m/s^2];
+        body crank (x1, y1, theta1) { mass = 0.038 [kg]; inertia = 7.4e-5 [kg*m^2]; }
+        body rod (x2, y2, theta2) { mass = 0.038 [kg]; inertia = 5.9e-4 [kg*m^2]; }
+        body slider (x3, y3, theta3) { mass = 0.076 [kg]; inertia = 2.7e-6 [kg*m^2]; }
+        point base on crank = (-l1/2, 0);
+        point pin on crank = (l1/2, 0);
+        point base on rod = (-l2/2, 0);
+        point pin on rod = (l2/2, 0);
+        point p1 on slider = (-a, b);
+        point p2 on slider = (a, b);
+        point p3 on slider = (-a, -b);
+        point p4 on slider = (a, -b);
+        revolute main (crank.base, ground);
+        revolute joint (crank.pin, rod.base);
+        revolute wrist (rod.pin, slider);
+        stop c1: slider.p1.y <= d { restitution = 0.4; }
+        stop c2: slider.p2.y <= d { restitution = 0.4; }
+        stop c3: slider.p3.y >= -d { restitution = 0.4; }
+        stop c4: slider.p4.y >= -d { restitution = 0.4; }
+        output up [m/s] = der(slider.p1.y);
+        start {
+            theta1 = 0;
+            theta2 = 0;
+            theta3 = 0;
+            der(theta1) = 150 [rad/s];
+            der(theta2) = -75 [rad/s];
+            der(theta3) = 0;
+            guess x1 = 0.07 [m];
+            guess x2 = 0.3 [m];
+            guess x3 = 0.459 [m];
+        }
+    }
+}
+
+/// The published first contact is at t = 2.692502752 ms with the angles 0.355304455 and −0.171509541, of two corners at
+/// once. The work of the impulses, ½ Σ Λ (ġ⁺ + ġ⁻), is what the kinetic energy changes by; joints do none.
+#[test]
+fn a_slider_with_clearance_hits_where_it_was_published() -> Result<(), Error> {
+    let tolerances = Tolerances { rtol: 1e-12, atol: 1e-13, ..TIGHT };
+    let mut run =
+        Adaptive::builder(Clearance::declared()).scheme::<Dop853>().tolerances(tolerances).build()?;
+    let mut before = run.state();
+    while run.inputs().c1_impulse == 0.0 {
+        before = run.state();
+        run.step()?;
+    }
+    let now = run.state();
+    assert!((run.time() - 2.692_502_752e-3).abs() < 1e-12, "{}", run.time());
+    assert!((now.q.theta1 - 0.355_304_455).abs() < 1e-9 && (now.q.theta2 + 0.171_509_541).abs() < 1e-9);
+    let inputs = *run.inputs();
+    assert!((inputs.c1_impulse - inputs.c2_impulse).abs() < 1e-12 * inputs.c1_impulse);
+    assert_eq!([inputs.c3_impulse, inputs.c4_impulse], [0.0; 2]);
+    // −e of the rate before; a run that stops short of the impact has that
+    let mut short =
+        Adaptive::builder(Clearance::declared()).scheme::<Dop853>().tolerances(tolerances).build()?;
+    short.advance_to(run.time() - 1e-12)?;
+    let rate = |state: &mbs_runtime::State<ClearanceCoordinates>| state.v.y3;
+    let (came, goes) = (rate(&short.state()), rate(&now));
+    assert!((goes + 0.4 * came).abs() < 1e-7 * came.abs(), "{came} {goes}");
+    let [kinetic, after] = [&short.state(), &now].map(|state| run.mechanism().kinetic_energy(state));
+    let work = -0.5 * (inputs.c1_impulse + inputs.c2_impulse) * (came + goes);
+    assert!((after - kinetic - work).abs() < 1e-8 * kinetic, "{} {work}", after - kinetic);
+    let violation = run.mechanism().phi_dot(&now);
+    assert!(violation.into_array().iter().all(|rate| rate.abs() < 1e-11), "{violation:?}");
+    assert!(before.t < now.t);
+    // and on, over a turn of the crank
+    run.advance_to(0.05)?;
+    let slider = run.state().q;
+    assert!(slider.y3.abs() < 1.01e-3 && slider.theta3.abs() < 0.03, "{slider:?}");
+    Ok(())
+}
