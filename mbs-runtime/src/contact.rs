@@ -12,7 +12,8 @@
 //!   there is an impulse (Newton's law; Glocker 2001 for several at once). Energy does not grow for e ≤ 1;
 //! * of a rest x is λ, and b the second derivative g̈ without it.
 //!
-//! W is positive semidefinite. Pivots by the least index (Murty 1974) end after finitely many, and there are few stops.
+//! W is positive semidefinite. Pivots by the least index (Murty 1974), and exchanges where stops depend on each other, end after
+//! finitely many, and there are few stops.
 
 use crate::Real;
 use crate::equations::{At, Equations};
@@ -154,9 +155,21 @@ impl<'a, T: Real> Contacts<'a, T> {
         for _ in 0..MOST_PIVOTS {
             let x = self.solve(active, b);
             let Some(wrong) = self.least_wrong(set, active, b, &x) else { return Some((active, x)) };
-            active ^= bit(wrong);
+            // an active one that closes all the same depends on others: it takes the place of one of them
+            let is_dependent = has(active, wrong) && number(&x, wrong) == 0.0;
+            active ^= bit(if is_dependent { self.exchanged(active, wrong, &x)? } else { wrong });
         }
         None
+    }
+
+    /// The first active stop whose impulse becomes 0 where that of one grows that depends on them.
+    fn exchanged(&self, active: u32, by: usize, x: &Each<T>) -> Option<usize> {
+        let column =
+            core::array::from_fn(|of| if of < self.stops { -self.mobility(of, by) } else { T::default() });
+        let shares = self.solve(active & !bit(by), &column);
+        let ratio = |stop: usize| number(x, stop) / number(&shares, stop);
+        let shrinking = (0..self.stops).filter(|stop| number(&shares, *stop) > DEPENDENT);
+        shrinking.reduce(|first, stop| if ratio(stop) < ratio(first) { stop } else { first })
     }
 
     /// The first stop of a set that is pulled, or that is left free and closes.
@@ -167,7 +180,6 @@ impl<'a, T: Real> Contacts<'a, T> {
             if has(active, stop) && own < -ROUNDING * largest {
                 return true;
             }
-            // an active one that depends on others may close all the same: nothing answers that
             let b = number(b, stop);
             let (mut rate, mut size) = (b, b.abs());
             for (by, x) in x.iter().enumerate().take(self.stops) {
@@ -332,6 +344,9 @@ mod tests {
             x.iter().all(|x| *x >= 0.0) && rates.iter().all(|rate| rate.abs() < 1e-14),
             "{x:?} {rates:?}"
         );
+        // of two that say the same the one with the larger restitution decides
+        let (active, x) = solved([[1.0, 1.0], [1.0, 1.0]], [-1.0, -2.0]).unwrap();
+        assert_eq!((active, x), (2, [0.0, 2.0]));
         // the wrong way round there is nothing
         assert_eq!(solved([[1.0, -1.0], [-1.0, 1.0]], [-1.0, -1.0]), None);
     }

@@ -138,7 +138,7 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
             effort: Effort::default(),
             progress: Progress::new(),
             switching: Switching::new(),
-            stopping: Stopping::new(),
+            stopping: Stopping::new(&tolerances),
             sampled: None,
             happened: Happened { is_set: true, ..Happened::default() },
             happened_before: Happened::default(),

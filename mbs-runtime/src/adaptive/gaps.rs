@@ -1,5 +1,6 @@
 //! Stops among what a run watches: their places, their values, and what the run remembers of them.
 
+use super::control::Tolerances;
 use super::dynamics::Dynamics;
 use super::effort::Effort;
 use crate::Real;
@@ -13,8 +14,11 @@ use crate::vectors;
 pub(super) struct Stopping {
     /// The longest flight from each stop so far, in s.
     pub longest: Each<f64>,
-    /// The largest coordinate at a jump so far.
+    /// The largest coordinate at a jump so far, and at least the least size.
     pub size: f64,
+    /// The size of coordinates from which on the relative tolerance decides: at the origin nothing else tells what is
+    /// rounding.
+    pub least_size: f64,
     /// The stops that are rested on from the next jump on, as they were not left by more than rounding.
     pub stuck: u32,
     /// The stops at which the next jump is.
@@ -30,10 +34,11 @@ pub(super) struct Stopping {
 }
 
 impl Stopping {
-    pub const fn new() -> Self {
+    pub fn new(tolerances: &Tolerances) -> Self {
         Self {
             longest: [0.0; MOST_STOPS],
-            size: f64::MIN_POSITIVE,
+            size: tolerances.atol / tolerances.rtol,
+            least_size: tolerances.atol / tolerances.rtol,
             stuck: 0,
             reached: 0,
             looks: (f64::NAN, 0),

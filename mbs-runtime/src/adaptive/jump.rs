@@ -222,7 +222,7 @@ impl<D: Dynamics> Jump<'_, D> {
             equations.stop_laws(laws);
         }
         let law = |stop: usize, which: usize| laws.get(2 * stop + which).copied().unwrap_or_default();
-        let (lowest, slopes) = (LOW * self.size(), self.slopes());
+        let (lowest, slopes) = (LOW * self.size().max(stopping.least_size), self.slopes());
         loop {
             let b: Each<D::Real> = core::array::from_fn(|stop| {
                 let rate = rates.get(stop).copied().unwrap_or_default();
