@@ -29,7 +29,7 @@ const MOST_PIVOTS: usize = 512;
 /// A negative value is rounding up to this share of the terms of which it is made.
 const ROUNDING: f64 = 1e-12;
 /// A pivot below this share of its row depends on those before it: these stops press one way.
-const DEPENDENT: f64 = 1e-10;
+pub(crate) const DEPENDENT: f64 = 1e-10;
 
 /// The gaps of stops in a state.
 #[derive(Clone, Copy, Debug)]
@@ -83,6 +83,11 @@ impl<'a, T: Real> Contacts<'a, T> {
             }
         });
         result
+    }
+
+    /// The number of stops.
+    pub fn stops(&self) -> usize {
+        self.stops
     }
 
     fn each(&self) -> usize {
@@ -257,54 +262,6 @@ pub(crate) fn those(count: usize, holds: impl Fn(usize) -> bool) -> u32 {
 /// The number of a stop, without derivatives.
 pub(crate) fn number<T: Real>(of: &Each<T>, stop: usize) -> f64 {
     of.get(stop).map_or(0.0, |x| x.to_f64())
-}
-
-/// The stops that are rested on.
-pub(crate) fn held<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> u32 {
-    let stops = equations.info().stops;
-    let memory = |stop: usize| inputs.get(stops.get(stop)?.memory).map(|held| held.to_f64());
-    those(stops.len(), |stop| memory(stop).is_some_and(|held| held > 0.5))
-}
-
-/// Adds to accelerations what the stops do that are rested on, and to multipliers, if they are given; the pivot growth
-/// of the responses.
-pub fn press<T: Real>(
-    equations: &dyn Equations<T>,
-    at: At<'_, T>,
-    inputs: &[T],
-    acceleration: &mut [T],
-    multipliers: Option<&mut [T]>,
-) -> T {
-    pressed(equations, at, inputs, acceleration, multipliers).0
-}
-
-/// The same with the forces λ at the stops.
-pub(crate) fn pressed<T: Real>(
-    equations: &dyn Equations<T>,
-    at: At<'_, T>,
-    inputs: &[T],
-    acceleration: &mut [T],
-    multipliers: Option<&mut [T]>,
-) -> (T, Each<T>) {
-    let none = (T::default(), [T::default(); MOST_STOPS]);
-    let held = held(equations, inputs);
-    if held == 0 {
-        return none;
-    }
-    let gaps = Gaps::of(equations, at, acceleration);
-    let found = Contacts::at(equations, (at.t, at.q), |contacts| {
-        let forces = contacts.solve(held, &gaps.acceleration);
-        contacts.add(&forces, acceleration);
-        if let Some(multipliers) = multipliers {
-            for (stop, &force) in forces.iter().enumerate().take(contacts.stops) {
-                for (to, y) in multipliers.iter_mut().zip(contacts.reactions(stop)) {
-                    *to = *to + force * *y;
-                }
-            }
-        }
-        (contacts.growth(), forces)
-    });
-    found.unwrap_or(none)
 }
 
 #[cfg(test)]

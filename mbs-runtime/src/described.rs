@@ -1,8 +1,8 @@
 //! The outputs, energies, texts and pictures of a mechanism, apart from its equations.
 
-use crate::contact::press;
 use crate::differentiable::Differentiable;
 use crate::equations::{At, Equations, read, write};
+use crate::pressing::press;
 use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch, vectors};
 
 /// The outputs, energies, texts and pictures of a mechanism, on slices as [`Equations`]. They are

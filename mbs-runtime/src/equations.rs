@@ -8,9 +8,10 @@
 //! [`Info`]. The vectors of a step have a component per coordinate that is integrated
 //! ([`Info::states`]). SI units, angles in rad.
 
-pub use crate::contact::press;
 pub use crate::described::Described;
 pub use crate::differentiable::{Differentiable, Differentiated, PARTIALS, Partials};
+pub use crate::moreau::{Changes, begin as begin_at_stops, push, strike};
+pub use crate::pressing::{are_independent, lean, press};
 pub use crate::reach::reach;
 pub use crate::room::Room;
 pub use crate::run::{Correction, Run, check_outputs, correction};

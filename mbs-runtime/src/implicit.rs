@@ -250,7 +250,7 @@ fn begin<D: Dynamics>(
     there: &mut D::States,
     Moment { t, q, v, a }: &mut Moment<D::Real, D::States>,
 ) -> D::Real {
-    let Some(h) = h else { return dynamics.acceleration(*t, q, v, inputs, a) };
+    let Some(h) = h else { return dynamics.free_acceleration(*t, q, v, inputs, a) };
     let own = D::Real::from_f64(scheme.own) * h;
     let mut growth = D::Real::default();
     for _ in 0..2 {

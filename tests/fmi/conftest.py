@@ -53,6 +53,23 @@ Sampled {
 }
 """
 
+STOPPED = """
+/// Two blocks, one above the other, that fall on a floor beside a wall.
+Stopped {
+    dof = 3;
+    gravity = (0, -9.81) [m/s^2];
+    body low (y) { mass = 1 [kg]; }
+    body high (x = u, y = w) { mass = 2 [kg]; }
+    input wind [N];
+    force push on u = wind;
+    stop floor: y >= 0 [m] { restitution = 0.5; }
+    stop upper: w - y >= 0.02 [m] { restitution = 0.3; }
+    stop wall: u <= 0.02 [m] { restitution = 0.8; }
+    start { y = 2 [mm]; w = 25 [mm]; der(u) = 0.3 [m/s]; }
+    output pressed = floor;
+}
+"""
+
 MECHANISMS = ["slider-crank", "slider-crank-free", "cam-follower", "tipper", "n-pendulum-40", "pendulum-reduced", "sampled"]
 
 
@@ -69,9 +86,10 @@ class Export:
             pathlib.Path(self.model).write_text(PENDULUM)
             # a run of the program that looks for events takes steps as long as it likes
             pathlib.Path(self.native_model).write_text(re.sub(" *event.*\n", "", PENDULUM))
-        if name == "sampled":
-            self.model = self.native_model = str(folder / "sampled.mbs")
-            pathlib.Path(self.model).write_text(SAMPLED)
+        for other, text in (("sampled", SAMPLED), ("stopped", STOPPED)):
+            if name == other:
+                self.model = self.native_model = str(folder / f"{name}.mbs")
+                pathlib.Path(self.model).write_text(text)
         command("export", "fmu", self.model, "--out", str(folder), "--step", f"{self.step}", "--end", "0.2s")
         self.paths = {version: next(folder.glob(f"*_fmi{version}.fmu")) for version in (2, 3)}
 
@@ -107,3 +125,8 @@ def driven(tmp_path_factory: pytest.TempPathFactory) -> Export:
 @pytest.fixture(scope="session")
 def crank(tmp_path_factory: pytest.TempPathFactory) -> Export:
     return Export("slider-crank-free", tmp_path_factory.mktemp("crank"))
+
+
+@pytest.fixture(scope="session")
+def stopped(tmp_path_factory: pytest.TempPathFactory) -> Export:
+    return Export("stopped", tmp_path_factory.mktemp("stopped"))

@@ -31,9 +31,11 @@ def test_it_is_valid(export, version):
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_co_simulation_has_the_bits_of_the_program(export, version):
-    path = export.paths[version]
+    same_bits(export.paths[version], export.native(END, round(INTERVAL / export.step)))
+
+
+def same_bits(path: pathlib.Path, native: dict[str, list[float]]) -> None:
     known = variables(path)
-    native = export.native(END, round(INTERVAL / export.step))
     names = [name for name in native if name in known and name != "t"]
     assert len(names) > 4
     result = fmpy.simulate_fmu(
@@ -57,6 +59,24 @@ def display_scale(path, variable) -> float:
             if unit.name == variable.unit and display.name == variable.displayUnit:
                 return display.factor
     raise AssertionError(variable.name)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_impacts_and_rests_have_the_bits_of_the_program(stopped, version):
+    native = stopped.native(END, round(INTERVAL / stopped.step), "--method", "heun")
+    assert native["pressed"][-1] == 1.0 and native["y"][-1] == 0.0
+    same_bits(stopped.paths[version], native)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_stops_are_for_co_simulation(stopped, version, tmp_path):
+    description = fmpy.read_model_description(stopped.paths[version])
+    assert validate_fmu(str(stopped.paths[version])) == []
+    assert description.modelExchange is None
+    assert not description.coSimulation.providesDirectionalDerivative
+    # what an impact leads to is saved with the state
+    test_a_state_is_saved_restored_and_serialized(stopped, version, tmp_path)
+    test_the_code_agrees_with_the_headers_of_the_standard(stopped, tmp_path / "code")
 
 
 @pytest.mark.parametrize("version", VERSIONS)

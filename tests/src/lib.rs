@@ -26,6 +26,7 @@
 //!   processes with the Rust compiler's stack and a time limit. A failure is cut down into `corpus`, which a
 //!   test compiles.
 
+pub mod between_stops;
 pub mod bushing;
 pub mod by_hand;
 pub mod by_hand_on_pairs;

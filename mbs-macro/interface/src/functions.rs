@@ -95,6 +95,8 @@ pub enum Property {
     Stiff,
     /// It exists only where clocks sample.
     Sampled,
+    /// It exists only where there are stops.
+    Stopping,
     /// Runs to a tolerance call it, and nobody else: other languages do not have it.
     Adaptive,
 }
@@ -141,7 +143,7 @@ macro_rules! functions {
     };
 }
 
-use Property::{Adaptive, Counted, Method, Sampled, Stiff, Tangent, Transposed, Whole};
+use Property::{Adaptive, Counted, Method, Sampled, Stiff, Stopping, Tangent, Transposed, Whole};
 
 functions! {
     /// The values that depend on parameters alone.
@@ -194,11 +196,11 @@ functions! {
     /// The values at whose knots forces, constraints or events bend or jump, beside those of time alone.
     Switches = "switches"(Time, Positions, Velocities, Inputs) -> [result: Switches], [Adaptive, Whole];
     /// The restitution of every stop, and the share of its longest flight below which it is not left again.
-    Stops = "stop_laws"() -> [result: Stops], [Adaptive, Whole];
+    Stops = "stop_laws"() -> [result: Stops], [Stopping, Whole];
     /// The gap of every stop, its rate and its second derivative with given accelerations.
-    Gaps = "gaps"(Time, Positions, Velocities, Reactions) -> [result: Gaps], [Adaptive];
+    Gaps = "gaps"(Time, Positions, Velocities, Reactions) -> [result: Gaps], [Counted, Stopping];
     /// Y and μ of M Y + Φ_qᵀ μ = ∂g/∂q, Φ_q Y = 0 for the gap g of every stop, and W = ∂g/∂q Y.
-    Contacts = "contacts"(Time, Positions) -> [result: Contacts], [Adaptive];
+    Contacts = "contacts"(Time, Positions) -> [result: Contacts], [Counted, Stopping];
     /// The period and the offset of every clock in s.
     Clocks = "clocks"() -> [result: Clocks], [Sampled, Whole];
     /// The values that every clock sets its memories to, one clock after the other.

@@ -154,7 +154,7 @@ impl<D: Dynamics> Dynamics for Driven<D> {
         self.dynamics.events(at, &self.inputs_at(at.t, inputs), values);
     }
 
-    fn acceleration(
+    fn free_acceleration(
         &self,
         t: D::Real,
         q: &D::States,
@@ -162,7 +162,7 @@ impl<D: Dynamics> Dynamics for Driven<D> {
         inputs: &D::Inputs,
         acceleration: &mut D::States,
     ) -> D::Real {
-        self.dynamics.acceleration(t, q, v, &self.inputs_at(t, inputs), acceleration)
+        self.dynamics.free_acceleration(t, q, v, &self.inputs_at(t, inputs), acceleration)
     }
 
     fn implicit(

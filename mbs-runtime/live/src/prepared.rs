@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::equations::{At, Described, Equations, Room, press};
+use mbs_runtime::equations::{At, Described, Equations, Room};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{Dynamics, Error, Real, Scheme};
 
@@ -145,12 +145,19 @@ impl<T: Real> Dynamics for Prepared<T> {
         self.live.events(at, inputs, values);
     }
 
-    fn acceleration(&self, t: T, q: &Vec<T>, v: &Vec<T>, inputs: &Vec<T>, acceleration: &mut Vec<T>) -> T {
+    fn free_acceleration(
+        &self,
+        t: T,
+        q: &Vec<T>,
+        v: &Vec<T>,
+        inputs: &Vec<T>,
+        acceleration: &mut Vec<T>,
+    ) -> T {
         let Memory { acceleration: slots, no_feedback, .. } = &mut *self.room.borrow_mut();
         let at = Arguments { inputs: single(inputs), feedback: single(no_feedback), ..state(At { t, q, v }) };
         let mut growth = [T::from_f64(f64::NAN)];
         self.run(FunctionId::Constrained, slots, &at, [acceleration, &mut growth]);
-        growth[0] + press(&self.live, At { t, q, v }, inputs, acceleration, None)
+        growth[0]
     }
 
     fn implicit(

@@ -7,9 +7,9 @@
 //! * a type whose name is forgotten (`adaptive.rs` of the workbench), so that these runs are compiled once
 //!   for all types.
 
-use crate::contact::press;
 use crate::equations::{At, Described, Equations};
 use crate::explicit::{Beside, correct};
+use crate::pressing::press;
 use crate::room::{OnStack, Room};
 use crate::{Accelerations, Components, Error, Mechanism, Real, Scheme, State, arrays, vectors};
 
@@ -79,8 +79,8 @@ pub trait Dynamics: Clone + Send {
     /// Writes the values whose changes of sign are the declared events.
     fn events(&self, at: At<'_, Self::Real>, inputs: &Self::Inputs, values: &mut [Self::Real]);
 
-    /// q̈ of what is integrated, without feedback terms.
-    fn acceleration(
+    /// q̈ of what is integrated, without feedback terms and without what stops do.
+    fn free_acceleration(
         &self,
         t: Self::Real,
         q: &Self::States,
@@ -88,6 +88,40 @@ pub trait Dynamics: Clone + Send {
         inputs: &Self::Inputs,
         acceleration: &mut Self::States,
     ) -> Self::Real;
+
+    /// The same with what the stops do that are rested on.
+    #[inline(always)]
+    fn acceleration(
+        &self,
+        t: Self::Real,
+        q: &Self::States,
+        v: &Self::States,
+        inputs: &Self::Inputs,
+        acceleration: &mut Self::States,
+    ) -> Self::Real {
+        let growth = self.free_acceleration(t, q, v, inputs, acceleration);
+        if self.has_stops() { growth + self.press(t, [q, v], inputs, acceleration) } else { growth }
+    }
+
+    /// True if the mechanism has stops.
+    fn has_stops(&self) -> bool {
+        !self.equations().info().stops.is_empty()
+    }
+
+    /// Adds to accelerations what the stops do that are rested on; the pivot growth of their responses.
+    #[doc(hidden)]
+    fn press(
+        &self,
+        t: Self::Real,
+        [q, v]: [&Self::States; 2],
+        inputs: &Self::Inputs,
+        acceleration: &mut Self::States,
+    ) -> Self::Real {
+        let (mut inputs, at) = (inputs.clone(), At { t, q: q.as_ref(), v: v.as_ref() });
+        self.with_inputs(&mut inputs, |inputs| {
+            press(self.equations(), at, inputs, acceleration.as_mut(), None)
+        })
+    }
 
     /// q̈ of what is integrated in an implicit stage, by one step of Newton's method from a
     /// prediction; see [`Mechanism::implicit`].
@@ -177,8 +211,12 @@ impl<M: Mechanism> Dynamics for M {
         vectors::copy(values, Mechanism::events(self, &at.state(), inputs).as_ref());
     }
 
+    fn has_stops(&self) -> bool {
+        !M::INFO.stops.is_empty()
+    }
+
     #[inline(always)]
-    fn acceleration(
+    fn free_acceleration(
         &self,
         t: M::Real,
         q: &Self::States,
@@ -190,11 +228,7 @@ impl<M: Mechanism> Dynamics for M {
         let none = M::Constraints::splat(M::Real::default());
         let Accelerations { acceleration: solved, growth } = self.constrained(&at, inputs, &none);
         *acceleration = solved.into_array();
-        if M::INFO.stops.is_empty() {
-            return growth;
-        }
-        let (inputs, at) = (inputs.into_array(), At { t, q: q.as_ref(), v: v.as_ref() });
-        growth + press(self, at, inputs.as_ref(), acceleration.as_mut(), None)
+        growth
     }
 
     fn implicit(

@@ -4,9 +4,10 @@ use super::control::Tolerances;
 use super::dynamics::Dynamics;
 use super::effort::Effort;
 use crate::Real;
-use crate::contact::{Each, Gaps, MOST_STOPS, bit, has, held, pressed, those};
+use crate::contact::{Each, Gaps, MOST_STOPS, bit, has, those};
 use crate::equations::{At, Equations};
 use crate::info::{Direction, MOST_EVENTS};
+use crate::pressing::{held, pressed};
 use crate::vectors;
 
 /// The memory of a run of its stops.

@@ -2,8 +2,9 @@
 
 use super::dynamics::Dynamics;
 use super::gaps::Stopping;
-use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, held, number, pressed, those};
+use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, number, those};
 use crate::equations::At;
+use crate::pressing::{held, pressed};
 use crate::{Real, vectors};
 
 /// A gap below this share of the size of the coordinates is closed,

@@ -8,7 +8,8 @@ use super::events::{Happened, Watched};
 use super::gaps::{Stopping, among, watched_of};
 use super::jump::{Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
-use crate::contact::{bit, has, held, those};
+use crate::contact::{bit, has, those};
+use crate::pressing::held;
 use crate::{Error, Real};
 
 /// A start is behind a stop by more than this share of the size of the coordinates.

@@ -86,6 +86,7 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
         };
         run.grid().check(run.dynamics.equations())?;
         if steps_taken == 0 {
+            run.touch()?;
             run.sample();
         }
         run.solve()?;

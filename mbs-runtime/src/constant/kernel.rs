@@ -27,7 +27,7 @@ pub trait Kernel<D: Dynamics>: Clone + Send {
         moment: &mut Moment<D::Real, D::States>,
     ) -> D::Real {
         let Moment { t, q, v, a } = moment;
-        dynamics.acceleration(*t, q, v, inputs, a)
+        dynamics.free_acceleration(*t, q, v, inputs, a)
     }
 
     /// A step of `h` seconds to `t_next`, on `moment`, whose acceleration is known and becomes that

@@ -28,7 +28,7 @@ use crate::samples::Grid;
 use crate::simulation::clock;
 use crate::vectors::assign;
 use crate::watch::Watch;
-use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State};
+use crate::{Components, Dynamics, Error, Heun, Mechanism, Real, State, moreau, vectors};
 
 /// A mechanism being integrated with a constant step by a method of its own: a [`Rattle`] or a
 /// [`TrBdf2`] run.
@@ -69,15 +69,92 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     }
 
     fn try_step(&mut self) -> Result<(), Error> {
+        let pushed = self.push()?;
         self.solve()?;
         let Self { dynamics, inputs, kernel, step, start_time, steps, next, .. } = self;
         let start = D::Real::from_f64(*start_time);
         let t_next = start + D::Real::from_f64((*steps + 1) as f64) * *step;
         let growth = kernel.step(&*dynamics, inputs, *step, t_next, next);
         match growth.filter(|growth| is_healthy(*growth, next)) {
-            Some(growth) => self.accept(growth),
+            Some(growth) => {
+                self.strike(pushed)?;
+                self.accept(growth)
+            }
             None => Err(self.cause()),
         }
+    }
+
+    /// The stops that push before a step.
+    fn push(&mut self) -> Result<u32, Error> {
+        let Self { dynamics, inputs, step, next, all: [q, v], .. } = self;
+        if !dynamics.has_stops() {
+            return Ok(0);
+        }
+        let (mut still, mut of_q, mut of_v, mut v) = (q.clone(), q.clone(), q.clone(), v.clone());
+        vectors::fill(still.as_mut(), D::Real::default());
+        let mut rows = dynamics.no_feedback();
+        let changes = moreau::Changes {
+            still: still.as_ref(),
+            rows: rows.as_mut(),
+            q: of_q.as_mut(),
+            v: of_v.as_mut(),
+        };
+        let pushed = dynamics.with_inputs(inputs, |inputs| {
+            let at = (next.t, q.as_ref(), v.as_mut());
+            moreau::push(dynamics.equations(), (*step, changes), at, inputs)
+        })?;
+        if pushed != 0 {
+            next.v = dynamics.states(&v);
+            self.is_solved = false;
+        }
+        Ok(pushed)
+    }
+
+    /// Leads the step that was tried back from the stops that are closed at its end.
+    fn strike(&mut self, pushed: u32) -> Result<(), Error> {
+        let Self { dynamics, inputs, step, now, next, .. } = self;
+        if !dynamics.has_stops() {
+            return Ok(());
+        }
+        let (t, start) = (next.t, dynamics.declared_start());
+        let [mut before, mut after, mut of] = [(); 3].map(|()| [start.1.clone(), start.2.clone()]);
+        dynamics.complete(now.t, &now.q, &now.v, &mut before);
+        dynamics.complete(t, &next.q, &next.v, &mut after);
+        let ([q, v], [of_q, of_v], mut still) = (&mut after, &mut of, start.1);
+        vectors::fill(still.as_mut(), D::Real::default());
+        let mut rows = dynamics.no_feedback();
+        let changes = moreau::Changes {
+            still: still.as_ref(),
+            rows: rows.as_mut(),
+            q: of_q.as_mut(),
+            v: of_v.as_mut(),
+        };
+        let [q_before, v_before] = &before;
+        let before = At { t: now.t, q: q_before.as_ref(), v: v_before.as_ref() };
+        let has_acted = dynamics.with_inputs(inputs, |inputs| {
+            let end = (t, [q.as_mut(), v.as_mut()]);
+            moreau::strike(dynamics.equations(), (*step, changes), (pushed, before), end, inputs)
+        })?;
+        if has_acted {
+            (next.q, next.v) = (dynamics.states(q), dynamics.states(v));
+        }
+        // forces may depend on memories of stops
+        self.is_solved = false;
+        Ok(())
+    }
+
+    /// Rests on the stops that the start touches.
+    fn touch(&mut self) -> Result<(), Error> {
+        let Self { dynamics, inputs, step, now, all: [q, v], .. } = self;
+        if !dynamics.has_stops() {
+            return Ok(());
+        }
+        let (at, none) = (At { t: now.t, q: q.as_ref(), v: v.as_ref() }, dynamics.no_feedback());
+        let mut acceleration = q.clone();
+        dynamics.with_inputs(inputs, |inputs| {
+            dynamics.equations().accelerations(at, inputs, none.as_ref(), acceleration.as_mut());
+            moreau::begin(dynamics.equations(), *step, at, acceleration.as_ref(), inputs)
+        })
     }
 
     /// Makes the step that was tried the last one.

@@ -192,7 +192,7 @@ impl<V: Clone> RattleStep<V> {
             correct(moment);
         }
         let Moment { q, v, a, .. } = moment;
-        growth = growth + dynamics.acceleration(t, q, v, inputs, a);
+        growth = growth + dynamics.free_acceleration(t, q, v, inputs, a);
         vectors::add_scaled(v.as_mut(), half, a.as_ref());
         growth = growth + dynamics.correction(t, &Beside { q, v: Some(v) }, delta);
         subtract(v, delta);

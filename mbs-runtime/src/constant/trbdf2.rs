@@ -189,7 +189,7 @@ impl<D: Dynamics> Kernel<D> for TrBdf2Step<D::States> {
         let (own, predicted) = (D::Real::from_f64(OWN) * h, &mut self.slopes[0]);
         let Moment { t, q, v, a } = moment;
         if !core::mem::replace(&mut self.is_started, true) {
-            return dynamics.acceleration(*t, q, v, inputs, a);
+            return dynamics.free_acceleration(*t, q, v, inputs, a);
         }
         let mut growth = D::Real::default();
         for _ in 0..2 {

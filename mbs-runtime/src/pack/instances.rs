@@ -15,6 +15,7 @@ use core::borrow::Borrow;
 use super::{Each, Many, ManyStates};
 use crate::equations::Arrays;
 use crate::lanes::{Lane, Lanes};
+use crate::simulation::{pushed, struck as stopped};
 use crate::straight::Straight;
 use crate::watch::rise_after;
 use crate::{Components, Gains, Mechanism, Method, Simulation, State};
@@ -212,7 +213,7 @@ impl<M: Mechanism<Real: Lane>, const N: usize> Moment<M, N> {
     }
 }
 
-/// The number of steps to the next sample in any lane.
+/// The number of steps to the next look at stops, or sample in any lane.
 #[inline(always)]
 pub(super) fn steps_to_sample<
     M: Mechanism<Real: Lane>,
@@ -223,6 +224,9 @@ pub(super) fn steps_to_sample<
     members: &[S; N],
     now: &Moment<M, N>,
 ) -> u64 {
+    if !M::INFO.stops.is_empty() {
+        return 1;
+    }
     if M::INFO.sampling.clocks == 0 {
         return u64::MAX;
     }
@@ -231,6 +235,52 @@ pub(super) fn steps_to_sample<
         member.grid().steps_to_sample(steps as u64, member.mechanism())
     });
     left.min().unwrap_or(u64::MAX)
+}
+
+/// The stops that push before a step, lane after lane; nothing where a lane cannot tell.
+#[inline(always)]
+pub(super) fn push<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M, X>>, const N: usize>(
+    members: &[S; N],
+    instances: &Instances<M, N>,
+    now: &mut Moment<M, N>,
+) -> Option<[u32; N]> {
+    let mut all = [0; N];
+    if M::INFO.stops.is_empty() {
+        return Some(all);
+    }
+    for lane in 0..N {
+        let (member, inputs) = (members[lane].borrow(), instances.scalar_inputs(lane));
+        let mut state = now.scalar_state(lane);
+        all[lane] = pushed(member.mechanism(), member.step_size(), &mut state, &inputs).ok()?;
+        now.put_scalar(lane, &state);
+    }
+    Some(all)
+}
+
+/// Leads steps back from stops, lane after lane; false where a lane cannot.
+#[inline(always)]
+pub(super) fn strike<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M, X>>, const N: usize>(
+    members: &[S; N],
+    instances: &mut Instances<M, N>,
+    before: &Moment<M, N>,
+    (pushed, now): ([u32; N], &mut Moment<M, N>),
+) -> bool {
+    if M::INFO.stops.is_empty() {
+        return true;
+    }
+    let (mut struck, mut memories) = (*now, *instances);
+    for lane in 0..N {
+        let (member, mut inputs) = (members[lane].borrow(), instances.scalar_inputs(lane));
+        let ends = [before.scalar_state(lane), now.scalar_state(lane)];
+        let h = member.step_size();
+        let Ok(end) = stopped(member.mechanism(), h, (pushed[lane], ends.each_ref()), &mut inputs) else {
+            return false;
+        };
+        struck.put_scalar(lane, &end);
+        memories.put_inputs(lane, inputs.into_array().as_ref());
+    }
+    (*now, *instances) = (struck, memories);
+    true
 }
 
 /// Takes the samples that are due, lane after lane.

@@ -22,7 +22,7 @@ use crate::mechanism::is_fused_for;
 use crate::straight::Straight;
 use crate::watch::Watch;
 use crate::{Components, Mechanism, Method, Real, Simulation, State, spare};
-use instances::{Instances, Moment, Pace, sample, steps_to_sample};
+use instances::{Instances, Moment, Pace, push, sample, steps_to_sample, strike};
 use long::{lane_after_lane, step_in_place};
 
 /// The mechanism `M` over `N` lanes of its own scalar.
@@ -163,10 +163,14 @@ where
         let mut taken = 0;
         while taken < steps {
             let mut next = now;
+            let Some(pushed) = push(members, instances, &mut next) else { break };
             let mut margin = Lanes::default();
             step_all::<M, X, N>(instances, pace, watches, 1.0, &mut next, &mut margin);
             next.count(1.0);
             if !is_calm(&margin, &next, watches) {
+                break;
+            }
+            if !strike(members, instances, &now, (pushed, &mut next)) {
                 break;
             }
             now = next;
@@ -187,6 +191,7 @@ where
     fn stride(&mut self, steps: u64) -> bool {
         let Self { members, instances, pace, watches, .. } = self;
         let mut now = self.now;
+        let Some(pushed) = push(members, instances, &mut now) else { return false };
         let mut margin = Lanes::default();
         if !is_fused_for::<M, X>() && is_in_loops::<M>() {
             lane_after_lane::<M, X, S, N>(members, instances, watches, steps, &mut now, &mut margin);
@@ -199,7 +204,8 @@ where
             }
         }
         now.count(steps as f64);
-        let are_calm = is_calm(&margin, &now, watches);
+        let are_calm = is_calm(&margin, &now, watches)
+            && strike(&self.members, &mut self.instances, &self.now, (pushed, &mut now));
         if are_calm {
             self.now = now;
             sample(&self.members, &mut self.instances, &now);

@@ -9,6 +9,7 @@ use super::{Each, Many, ManyCoordinates, ManyOutputs, trouble_of};
 use crate::components::sum_of;
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::growth_limit;
+use crate::simulation::press;
 use crate::straight::Straight;
 use crate::{Components, Mechanism, State};
 
@@ -88,7 +89,8 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
         for lane in 0..N {
             let (mechanism, inputs) = (self.instances.mechanism_of(lane), self.instances.inputs_of(lane));
             let at = mechanism.complete(&self.moment.state_of(lane));
-            let reactions = mechanism.reactions(&at, &inputs, &none);
+            let mut reactions = mechanism.reactions(&at, &inputs, &none);
+            press(&mechanism, &at, &inputs, &mut reactions);
             let values = mechanism.outputs(&at, &inputs, &reactions);
             let trouble = trouble_of(sum_of(reactions.acceleration)) + trouble_of(sum_of(values));
             healthy[lane] = reactions.growth + trouble < growth_limit();
@@ -101,7 +103,8 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
     fn outputs_of_one(&self) -> (ManyOutputs<M, N>, [bool; N]) {
         let (at, inputs) = (self.state(), self.inputs());
         let none = <Many<M, N> as Mechanism>::Constraints::splat(Lanes::default());
-        let reactions = self.mechanism().reactions(&at, &inputs, &none);
+        let mut reactions = self.mechanism().reactions(&at, &inputs, &none);
+        press(self.mechanism(), &at, &inputs, &mut reactions);
         let outputs = self.mechanism().outputs(&at, &inputs, &reactions);
         let is_finite = reactions.acceleration.is_finite() && outputs.is_finite();
         (outputs, [is_finite && reactions.growth < growth_limit(); N])

@@ -80,6 +80,7 @@ impl Sum<'_> {
         }
         self.variables().iter().try_for_each(|variable| variable.find(info).map(drop))?;
         info.refuse_clocks("the way back through a run")?;
+        info.refuse_stops("the way back through a run")?;
         let mut numbers = vec![0.0; length(info, run.hoisted())];
         let mut adjoints = within(&mut numbers, info, run.hoisted());
         let mut kept = Kept::within(memory, self.steps(), info.states.len())?;

@@ -252,6 +252,7 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
             watch: Watch::new(length),
         };
         simulation.grid().check(&simulation.mechanism)?;
+        simulation.touch()?;
         simulation.sample();
         Ok(simulation)
     }

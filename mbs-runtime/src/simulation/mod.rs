@@ -9,6 +9,7 @@ mod steps;
 mod system;
 
 pub use self::builder::Builder;
+pub(crate) use self::on_slices::{press, pushed, struck};
 
 use crate::components::sum_of;
 use crate::mechanism::growth_limit;
@@ -224,7 +225,8 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         &self,
         feedback: &M::Constraints,
     ) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
-        let solved = self.mechanism.reactions(&self.state(), &self.inputs, feedback);
+        let mut solved = self.mechanism.reactions(&self.state(), &self.inputs, feedback);
+        press(&self.mechanism, &self.state(), &self.inputs, &mut solved);
         let sum = sum_of(solved.acceleration) + sum_of(solved.multipliers);
         if sum.is_finite() && solved.growth < growth_limit() {
             return Ok(solved);

@@ -6,7 +6,7 @@ use crate::equations::Arrays;
 use crate::room::{OnStack, Room};
 use crate::run::Run;
 use crate::samples::Grid;
-use crate::{Components, Error, Mechanism, Method, Real, Scheme, State, spare};
+use crate::{Components, Error, Mechanism, Method, Reactions, Real, Scheme, State, moreau, pressing, spare};
 
 /// A function of a run and of vectors to compute with.
 type Do<'a, T> = dyn FnMut(&Run<'_, T>, &mut Room<'_, T>) -> Result<(), Error> + 'a;
@@ -32,7 +32,11 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// A step in stages, and the samples that are due at its end.
     #[doc(hidden)]
     pub fn step_in_stages(&mut self) -> Result<(), Error> {
-        self.step_by_stages()?;
+        if M::INFO.stops.is_empty() {
+            self.step_by_stages()?;
+        } else {
+            self.step_to_stops(Self::step_by_stages)?;
+        }
         self.sample();
         Ok(())
     }
@@ -47,6 +51,45 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         self.on_slices(&mut |run, room| run.step(*t, [q.as_mut(), v.as_mut()], &mut watch, room).map(drop))?;
         (self.state, self.watch) = (next.state(), watch);
         self.steps += 1.0;
+        Ok(())
+    }
+
+    /// A step, and what stops make of its end.
+    #[inline(never)]
+    pub(super) fn step_to_stops(
+        &mut self,
+        step: impl FnOnce(&mut Self) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let before = *self;
+        let led = pushed(&self.mechanism, self.step, &mut self.state, &self.inputs).and_then(|pushed| {
+            step(self)?;
+            let ends = [&before.state, &self.state];
+            struck(&self.mechanism, self.step, (pushed, ends), &mut self.inputs)
+        });
+        match led {
+            Ok(state) => self.state = state,
+            Err(error) => {
+                *self = before;
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// Rests on the stops that the start touches.
+    ///
+    /// # Errors
+    /// Those of [`begin`](moreau::begin).
+    pub(super) fn touch(&mut self) -> Result<(), Error> {
+        if M::INFO.stops.is_empty() {
+            return Ok(());
+        }
+        let none = M::Constraints::splat(M::Real::default());
+        let acceleration = self.mechanism.reactions(&self.state(), &self.inputs, &none).acceleration;
+        let (state, mut inputs) = (Arrays::of(&self.state()), self.inputs.into_array());
+        let acceleration = acceleration.into_array();
+        moreau::begin(&self.mechanism, self.step, state.at(), acceleration.as_ref(), inputs.as_mut())?;
+        self.inputs = Components::from_array(inputs);
         Ok(())
     }
 
@@ -83,5 +126,84 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     #[inline(always)]
     pub(super) fn keeps_redundant(&self, at: &State<M::States>) -> bool {
         spare::margin(&self.mechanism, at, self.watch.length) >= M::Real::default()
+    }
+}
+
+/// The stops that push before a step, which changes velocities.
+///
+/// # Errors
+/// [`Error::Impact`].
+pub(crate) fn pushed<M: Mechanism>(
+    mechanism: &M,
+    h: M::Real,
+    state: &mut State<M::States>,
+    inputs: &M::Inputs,
+) -> Result<u32, Error> {
+    let Arrays { t, q, mut v } = Arrays::of(&mechanism.complete(state));
+    let zero = M::Coordinates::splat(M::Real::default()).into_array();
+    let mut rows = M::Constraints::splat(M::Real::default()).into_array();
+    let (mut of_q, mut of_v) = (zero, zero);
+    let changes =
+        moreau::Changes { still: zero.as_ref(), rows: rows.as_mut(), q: of_q.as_mut(), v: of_v.as_mut() };
+    let inputs = inputs.into_array();
+    let pushed = moreau::push(mechanism, (h, changes), (t, q.as_ref(), v.as_mut()), inputs.as_ref())?;
+    if pushed != 0 {
+        state.v = M::states(Components::from_array(v));
+    }
+    Ok(pushed)
+}
+
+/// The end of a step as stops make it, which set their memories; the stops that have pushed before it.
+///
+/// # Errors
+/// [`Error::Impact`].
+pub(crate) fn struck<M: Mechanism>(
+    mechanism: &M,
+    h: M::Real,
+    (pushed, ends): (u32, [&State<M::States>; 2]),
+    inputs: &mut M::Inputs,
+) -> Result<State<M::States>, Error> {
+    let [before, after] = ends.map(|end| Arrays::of(&mechanism.complete(end)));
+    let zero = M::Coordinates::splat(M::Real::default()).into_array();
+    let (Arrays { t, mut q, mut v }, mut own) = (after, inputs.into_array());
+    let (mut of_q, mut of_v) = (zero, zero);
+    let mut rows = M::Constraints::splat(M::Real::default()).into_array();
+    let changes =
+        moreau::Changes { still: zero.as_ref(), rows: rows.as_mut(), q: of_q.as_mut(), v: of_v.as_mut() };
+    let end = (t, [q.as_mut(), v.as_mut()]);
+    moreau::strike(mechanism, (h, changes), (pushed, before.at()), end, own.as_mut())?;
+    *inputs = Components::from_array(own);
+    let State { t, q, v } = Arrays { t, q, v }.state();
+    Ok(State { t, q: M::states(q), v: M::states(v) })
+}
+
+/// Adds what the stops do that are rested on.
+#[inline(always)]
+pub(crate) fn press<M: Mechanism>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+    to: &mut Reactions<M::Coordinates, M::Constraints>,
+) {
+    if !M::INFO.stops.is_empty() {
+        *to = pressed(mechanism, at, inputs, to);
+    }
+}
+
+#[inline(never)]
+fn pressed<M: Mechanism>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+    free: &Reactions<M::Coordinates, M::Constraints>,
+) -> Reactions<M::Coordinates, M::Constraints> {
+    let (state, inputs) = (Arrays::of(at), inputs.into_array());
+    let (mut a, mut multipliers) = (free.acceleration.into_array(), free.multipliers.into_array());
+    let growth =
+        pressing::press(mechanism, state.at(), inputs.as_ref(), a.as_mut(), Some(multipliers.as_mut()));
+    Reactions {
+        acceleration: Components::from_array(a),
+        multipliers: Components::from_array(multipliers),
+        growth: free.growth + growth,
     }
 }

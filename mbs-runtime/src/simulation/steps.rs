@@ -33,12 +33,16 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// [`step`](Self::step), always inlined into its caller.
     #[inline(always)]
     fn inlined_step(&mut self) -> Result<(), Error> {
-        self.step_between()?;
+        if M::INFO.stops.is_empty() {
+            self.step_between()?;
+        } else {
+            self.step_to_stops(Self::step_between)?;
+        }
         self.sample();
         Ok(())
     }
 
-    /// A step of which clocks know nothing.
+    /// A step of which clocks and stops know nothing.
     #[inline(always)]
     fn step_between(&mut self) -> Result<(), Error> {
         let t_next = self.next_time();
@@ -131,6 +135,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         let t_next = self.next_time();
         let Self { mechanism, inputs, gains, step, watch, .. } = &*self;
         if is_fused_for::<M, X>()
+            && M::INFO.stops.is_empty()
             && let Some((fused, reactions)) =
                 mechanism.fused_step_with_reactions::<X>(&self.present(), inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm

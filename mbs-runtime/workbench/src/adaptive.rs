@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use mbs_analysis::{Driven, Trials};
-use mbs_runtime::equations::{At, Correction, Described, Partials, Room, correction, press};
+use mbs_runtime::equations::{At, Correction, Described, Partials, Room, correction};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
     Adaptive, AdaptiveScheme, Components, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method,
@@ -218,10 +218,16 @@ impl<T: Real> Dynamics for Erased<T> {
         self.mechanism.events(at, inputs, values);
     }
 
-    fn acceleration(&self, t: T, q: &Vec<T>, v: &Vec<T>, inputs: &Vec<T>, acceleration: &mut Vec<T>) -> T {
+    fn free_acceleration(
+        &self,
+        t: T,
+        q: &Vec<T>,
+        v: &Vec<T>,
+        inputs: &Vec<T>,
+        acceleration: &mut Vec<T>,
+    ) -> T {
         let at = At { t, q, v };
-        let growth = self.mechanism.constrained(at, inputs, &self.no_feedback, acceleration);
-        growth + press(self.equations(), at, inputs, acceleration, None)
+        self.mechanism.constrained(at, inputs, &self.no_feedback, acceleration)
     }
 
     fn implicit(

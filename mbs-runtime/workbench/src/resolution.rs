@@ -55,8 +55,9 @@ pub(crate) struct Resolution {
     worst: Option<Unstable>,
     /// The largest errors of velocities, and of own states, whose scales per second are these states.
     coarsest: [Option<Coarse>; 2],
-    /// After which step an implicit one is looked at, and velocities at its end by explicit steps, twice.
-    expected: Option<(u64, [Vec<f64>; 2])>,
+    /// After which step an implicit one is looked at, what stops have done by then, and velocities at its end by explicit
+    /// steps, twice.
+    expected: Option<(u64, f64, [Vec<f64>; 2])>,
 }
 
 struct Unstable {
@@ -110,7 +111,9 @@ impl Resolution {
                 false => *scale = scale.max(v.abs()),
             }
         }
-        if let Some((_, [coarse, fine])) = self.expected.take_if(|(after, _)| *after + 1 == taken) {
+        if let Some((_, before, [coarse, fine])) = self.expected.take_if(|(after, ..)| *after + 1 == taken)
+            && before == done_by_stops(run)
+        {
             self.compare(run.time(), &now.v, &fine, Some(&coarse));
         }
         let is_first = self.looks_at_first && taken <= FIRST && taken.is_power_of_two();
@@ -132,7 +135,7 @@ impl Resolution {
             Stepping::Implicit => {
                 let expected = [PARTS, 2 * PARTS]
                     .map(|parts| stepped(&DOP853, run, at, &inputs, [self.step, f64::from(parts)]));
-                self.expected = Some((taken, expected));
+                self.expected = Some((taken, done_by_stops(run), expected));
             }
         }
     }
@@ -193,6 +196,8 @@ impl Resolution {
             });
         }
         let shares = self.coarsest.iter().zip([self.speed, 1.0]);
+        // what does not move at all has no share
+        let shares = shares.filter(|(_, size)| *size > 0.0);
         let shares = shares.filter_map(|(coarsest, size)| Some((coarsest.as_ref()?, size)));
         let shares = shares.map(|(coarsest, size)| (coarsest, coarsest.error / size));
         let (Coarse { at, coordinate, .. }, share) = shares.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
@@ -211,6 +216,15 @@ impl Resolution {
         }
         step
     }
+}
+
+/// The sum of the impulses at stops: not a number while one is rested on, whose force no free step knows.
+fn done_by_stops(run: &dyn System) -> f64 {
+    let info = run.equations().info();
+    let mut inputs = vec![0.0; info.inputs.len()];
+    run.inputs(&mut inputs);
+    let done = |at: usize| if inputs[at] > 0.5 { f64::NAN } else { inputs[at + 1] };
+    info.stops.iter().map(|stop| done(stop.memory)).sum()
 }
 
 impl Stepping {

@@ -146,6 +146,8 @@ impl RunOptions {
         let stabilization = feedback.or(declared);
         let has_gains = is_fed_back && stabilization != Some(Stabilization::Projection);
         let declared_gain = |gain: Option<f64>| gain.filter(|_| has_gains);
+        // impacts are found by runs to a tolerance, unless a method is declared that takes constant steps
+        let for_stops = model.declares_scheme() && !model.scheme().is_adaptive() && !info.stops.is_empty();
         let end = self.value("end", TIME)?.or(end_of_clock);
         let settings = Settings {
             step: self.value("step", TIME)?.unwrap_or(defaults.step),
@@ -154,7 +156,7 @@ impl RunOptions {
             every: self.every.unwrap_or(defaults.every),
             alpha: self.value("alpha", RATE)?.or(declared_gain(defaults.alpha)),
             beta: self.value("beta", RATE)?.or(declared_gain(defaults.beta)),
-            scheme: scheme.or(defaults.scheme),
+            scheme: scheme.or(defaults.scheme).or(for_stops.then(|| model.scheme())),
             other,
             stabilization,
             tolerances,

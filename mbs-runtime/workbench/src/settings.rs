@@ -126,9 +126,13 @@ impl Default for Settings {
 
 impl Settings {
     /// The tolerances of a run: those that are given, and the usual ones where the method takes no constant steps,
-    /// a condition ends the run, or the mechanism has stops. Nothing of a run with a constant step.
+    /// a condition ends the run, or the mechanism has stops and nothing that constant steps alone have is asked for.
+    /// Nothing of a run with a constant step.
     pub(crate) fn tolerances_of_run(&self, info: &Info) -> Option<Tolerances> {
-        let hits = !info.stops.is_empty() && self.other.is_none();
+        let asks_for_steps = self.other.is_some()
+            || self.scheme.is_some_and(|scheme| !scheme.is_adaptive())
+            || self.stabilization.is_some_and(|way| way != Stabilization::Projection);
+        let hits = !info.stops.is_empty() && !asks_for_steps;
         let is_adaptive =
             self.until.is_some() || hits || self.other.is_some_and(|other| !other.is_constant());
         self.tolerances.or(is_adaptive.then(Tolerances::default))

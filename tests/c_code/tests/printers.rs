@@ -11,6 +11,8 @@ use mbs_live::{Live, Run, Scalar, Text};
 use mbs_runtime::{Baumgarte, Error, Held, Method, PerStage, System};
 use paths::STRIDE;
 
+#[path = "../../src/between_stops.rs"]
+mod between_stops;
 #[path = "../../src/linkages.rs"]
 mod linkages;
 #[path = "../../src/random.rs"]
@@ -122,5 +124,15 @@ fn random_mechanisms() {
             compared += u64::from(compare(&format!("random {number}"), &text, 1e-4, compiler));
         }
         number += 1;
+    }
+}
+
+/// Between stops, on which they land and rest.
+#[test]
+fn random_mechanisms_between_stops() {
+    let Some(&compiler) = compilers().first() else { return };
+    for number in 0..32 / STRIDE as u64 {
+        let text = Text::declaration(format!("stops {number}"), between_stops::random(number).0);
+        assert!(compare(&format!("stops {number}"), &text, 1e-3, compiler), "{number} starts");
     }
 }

@@ -1,11 +1,11 @@
 //! Stops over many impacts: a ball in a box, and random mechanisms between random stops.
 #![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
-use mbs_live::{Prepared, Text};
+use mbs_live::{Prepared, Run, Text};
 use mbs_runtime::equations::At;
 use mbs_runtime::{Adaptive, Dop853, Error, Sampled, System, Tolerances, mechanism};
 use paths::EXHAUSTIVE;
-use tests::random::Random;
+use tests::between_stops;
 
 const TIGHT: Tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_step: f64::INFINITY, first_step: None };
 
@@ -51,44 +51,13 @@ fn a_ball_in_a_box_keeps_its_energy() -> Result<(), Error> {
     Ok(())
 }
 
-/// A random mechanism: masses on springs, hung in joints of their own, between stops, some of which say the same or are
-/// reached at once. All start at 0, before every stop or at it.
-fn random(number: u64) -> (String, usize) {
-    let mut random = Random::new(number);
-    let mut whole = |from: i64, to: i64| from + random.below((to - from + 1) as usize) as i64;
-    let (bodies, stops) = (whole(1, 4), whole(1, 4));
-    let names: Vec<String> = (1..=bodies).map(|body| format!("y{body}")).collect();
-    let mut text = String::from("Random {\n    gravity = (0, -9.81) [m/s^2];\n");
-    let is_tied = bodies > 2 && whole(0, 1) == 1;
-    text += &format!("    dof = {};\n", bodies - i64::from(is_tied));
-    for name in &names {
-        let (mass, stiffness) = (whole(1, 5), whole(1, 4) * 20);
-        text += &format!("    body b{name} (y = {name}) {{ mass = {mass} [kg]; }}\n");
-        text += &format!("    potential s{name} = {stiffness} [N/m]*({name} - 1 [m])^2/2;\n");
-    }
-    if is_tied {
-        // a joint that is not linear
-        text += "    constraint tie: y1^2 + 2*y1*[m] = y2*[m];\n".replace("[m]", "(1 [m])").as_str();
-    }
-    for stop in 0..stops {
-        let mut factors: Vec<i64> = names.iter().map(|_| whole(-2, 2)).collect();
-        factors[whole(0, bodies - 1) as usize] = 1;
-        let sum: Vec<String> =
-            factors.iter().zip(&names).map(|(factor, name)| format!("{factor}*{name}")).collect();
-        let (gap, e) = (whole(0, 2), whole(0, 4));
-        text += &format!("    stop s{stop}: {} >= -{gap} [m] {{ restitution = {e}/4; }}\n", sum.join(" + "));
-        text += &format!("    output g{stop} [m] = {} + {gap} [m];\n", sum.join(" + "));
-    }
-    (text + "}\n", stops as usize)
-}
-
 /// Energy does not grow, no gap becomes negative, and a run ends in its time.
 #[test]
 fn random_impacts_take_energy_and_keep_gaps() {
     let mut impacts = 0;
     let count = if EXHAUSTIVE { 2000 } else { 100 };
     for number in 0..count {
-        let (text, stops) = random(number);
+        let (text, stops) = between_stops::random(number);
         let live = Text::declaration("random.mbs", &text)
             .compile()
             .unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -119,4 +88,52 @@ fn random_impacts_take_energy_and_keep_gaps() {
         impacts += inputs.chunks(2).filter(|stop| stop[1] > 0.0).count() as u64;
     }
     assert!(impacts > count / 2, "{impacts} stops are hit");
+}
+
+/// With constant steps, whose impacts are known to a step: energy grows by no more than gravity and springs give within
+/// a step, and gaps are short of 0 by no more than a step of motion.
+#[test]
+fn random_impacts_of_constant_steps_take_energy_and_keep_gaps() {
+    const STEP: f64 = 1e-4;
+    let (mut impacts, mut rests) = (0, 0);
+    let count = if EXHAUSTIVE { 500 } else { 50 };
+    for number in 0..count {
+        let (text, stops) = between_stops::random(number);
+        let live = Text::declaration("random.mbs", &text)
+            .compile()
+            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let built = Run::builder(&live, STEP).build();
+        let mut run = built.unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let info = *run.described().info();
+        let (n, m) = (info.coordinates.len(), info.constraints.len());
+        let energy = |run: &Run| {
+            let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+            run.state(&mut q, &mut v);
+            let at = At { t: run.time(), q: &q, v: &v };
+            let speed = v.iter().fold(0.0_f64, |speed, v| speed.max(v.abs()));
+            (run.described().kinetic_energy(at) + run.described().potential_energy(at), speed)
+        };
+        let (mut last, mut fastest) = (energy(&run).0, 0.0);
+        for _ in 0..200 {
+            run.advance(100).unwrap_or_else(|error| panic!("{number}: {error}\n{text}"));
+            let (now, speed) = energy(&run);
+            fastest = speed.max(fastest);
+            // forces of some 300 N along the way of a few impacts that are a step off
+            let allowed = 300.0 * STEP * fastest + 1e-9;
+            assert!(now <= last + allowed, "{number}: {now} after {last} J at {} s\n{text}", run.time());
+            last = last.min(now);
+            let (mut a, mut multipliers, mut gaps) = (vec![0.0; n], vec![0.0; m], vec![0.0; stops]);
+            run.reactions(&mut a, &mut multipliers)
+                .unwrap_or_else(|error| panic!("{number}: {error}\n{text}"));
+            run.outputs(&a, &multipliers, &mut gaps).expect("gaps");
+            // factors of gaps up to 2, four bodies
+            let short = 8.0 * STEP * fastest + 1e-9;
+            assert!(gaps.iter().all(|gap| *gap > -short), "{number}: {gaps:?} at {} s\n{text}", run.time());
+        }
+        let mut inputs = vec![0.0; 2 * stops];
+        run.inputs(&mut inputs);
+        impacts += inputs.chunks(2).filter(|stop| stop[1] > 0.0).count() as u64;
+        rests += inputs.chunks(2).filter(|stop| stop[0] > 0.0).count() as u64;
+    }
+    assert!(impacts > count / 2 && rests > count / 5, "{impacts} stops are hit, {rests} rested on");
 }

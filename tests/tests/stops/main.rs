@@ -2,8 +2,10 @@
 //! `tests/long`.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
+mod energy;
 mod rests;
 mod several;
+mod steps;
 
 use mbs_live::{Prepared, Text};
 use mbs_runtime::{
@@ -116,17 +118,14 @@ fn a_text_bounces_as_a_type() -> Result<(), Error> {
     Ok(())
 }
 
-/// What sees no impact says so.
+/// A start behind a stop is none.
 #[test]
-fn constant_steps_refuse_stops() {
-    let refused = Simulation::new(Ball::declared(), 1e-3).expect_err("an error");
-    assert!(
-        refused
-            .to_string()
-            .starts_with("a run with constant steps does not see the impacts of the stop `floor`")
-    );
+fn a_start_behind_a_stop_is_refused() {
     let mut behind = Ball::<f64>::declared().declared_start();
     behind.q.y = -0.1;
-    let refused = Adaptive::builder(Ball::declared()).from_state(behind).build().expect_err("an error");
-    assert!(refused.to_string().contains("is behind the stop `floor`: its gap is -0.1"), "{refused}");
+    let run = Adaptive::builder(Ball::declared()).from_state(behind).build().map(|_| ());
+    let steps = Simulation::builder(Ball::declared(), 1e-3).from_state(behind).build().map(|_| ());
+    for refused in [run, steps].map(|run| run.expect_err("an error").to_string()) {
+        assert!(refused.contains("is behind the stop `floor`: its gap is -0.1"), "{refused}");
+    }
 }

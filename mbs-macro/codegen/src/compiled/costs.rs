@@ -21,16 +21,15 @@ impl Compiled {
         let is_there = |function: &FunctionId| {
             (self.has_stiffness || !function.is(Property::Stiff))
                 && (self.sampling.clocks > 0 || !function.is(Property::Sampled))
+                && (!self.stops.is_empty() || !function.is(Property::Stopping))
         };
         FunctionId::all().filter(is_there).filter(|function| !function.is(Property::Adaptive))
     }
 
     /// The costs of the functions that people ask for.
     pub fn counts(&self) -> Vec<Count> {
-        let at_stops = [FunctionId::Gaps, FunctionId::Contacts];
-        let of_stops = at_stops.into_iter().filter(|_| !self.stops.is_empty());
         let counted = self.functions().filter(|it| it.is(Property::Counted));
-        counted.chain(of_stops).map(|function| self.count(function)).collect()
+        counted.map(|function| self.count(function)).collect()
     }
 
     /// The cost of a function.

@@ -4,11 +4,12 @@ mod clocks;
 mod derivatives;
 mod pack;
 mod reverse;
+mod stops;
 
 pub use pack::Pack;
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch};
+use mbs_runtime::equations::{self, At, Equations, Preparation, Room, Start, Watch, press};
 use mbs_runtime::{
     Adaptive, AdaptiveBuilder, Baumgarte, Error, Explicit, Gains, Held, Method, Projected, Real,
 };
@@ -237,6 +238,7 @@ impl<T: Real> Run<T> {
             &arguments,
             [&mut *acceleration, &mut *multipliers, &mut growth],
         );
+        growth[0] = growth[0] + press(&self.mechanism, at, &self.inputs, acceleration, Some(multipliers));
         on_slices!(self).examine(&q, acceleration, multipliers, growth[0])
     }
 }
@@ -412,6 +414,7 @@ impl<T: Real> Builder<T> {
         };
         run.grid().check(&run.mechanism)?;
         if steps_taken == 0 {
+            run.touch()?;
             run.sample();
         }
         Ok(run)

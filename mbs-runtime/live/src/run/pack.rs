@@ -62,14 +62,15 @@ impl Pack {
     /// The runs themselves if there is none, if there are more than
     /// [`LANES`](crate::LANES), if their mechanisms do not
     /// [share their programs](crate::Live::shares_programs_with), if their methods
-    /// differ, or if the mechanism has redundant constraints, which
+    /// differ, or if the mechanism has redundant constraints or stops, which
     /// are judged run by run.
     pub fn new(runs: Vec<Run>) -> Result<Self, Vec<Run>> {
         let Some(first) = runs.first() else { return Err(runs) };
         let is_like_first =
             |run: &Run| run.mechanism.shares_programs_with(&first.mechanism) && run.method == first.method;
-        let has_redundant = !first.mechanism.declared_info().redundant.is_empty();
-        if runs.len() > LANES || has_redundant || !runs.iter().all(is_like_first) {
+        let info = first.mechanism.declared_info();
+        let are_judged_alone = !info.redundant.is_empty() || !info.stops.is_empty();
+        if runs.len() > LANES || are_judged_alone || !runs.iter().all(is_like_first) {
             return Err(runs);
         }
         // lanes that are left over do what the first one does

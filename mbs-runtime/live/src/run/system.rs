@@ -40,23 +40,11 @@ impl<T: Real> System<T> for Run<T> {
     }
 
     fn step(&mut self) -> Result<(), Error> {
-        let t_next = self.start_time + T::from_f64((self.steps + 1) as f64) * self.step;
-        let run = on_slices!(self);
-        let mut room = Room::within(&mut self.room, self.mechanism.declared_info());
-        let growth = self.stepper.step(run.at, run.inputs, &run.gains, run.step, t_next);
-        let next = At { t: t_next, q: self.stepper.q(), v: self.stepper.v() };
-        let is_finite = next.q.iter().chain(next.v).all(|x| x.is_finite());
-        if is_finite && run.is_calm(next, growth, &self.watch, &mut room) {
-            self.watch.note(growth);
-            copy(&mut self.q, self.stepper.q());
-            copy(&mut self.v, self.stepper.v());
+        if self.mechanism.declared_info().stops.is_empty() {
+            self.step_between()?;
         } else {
-            let (mut q, mut v) = (self.q.clone(), self.v.clone());
-            run.step(t_next, [&mut q, &mut v], &mut self.watch, &mut room)?;
-            (self.q, self.v) = (q, v);
+            self.step_to_stops()?;
         }
-        self.t = t_next;
-        self.steps += 1;
         self.sample();
         Ok(())
     }
@@ -64,7 +52,6 @@ impl<T: Real> System<T> for Run<T> {
     fn reactions(&self, acceleration: &mut [T], multipliers: &mut [T]) -> Result<(), Error> {
         self.reactions_with(&vec![T::ZERO; multipliers.len()], acceleration, multipliers)
     }
-
     fn outputs(&self, acceleration: &[T], multipliers: &[T], outputs: &mut [T]) -> Result<(), Error> {
         let [q, v] = self.completed();
         let at = At { t: self.t, q: &q, v: &v };
@@ -90,6 +77,30 @@ impl<T: Real> System<T> for Run<T> {
 
     fn digits_left(&self) -> f64 {
         self.watch.digits_left()
+    }
+}
+
+impl<T: Real> Run<T> {
+    /// A step of which clocks and stops know nothing.
+    pub(super) fn step_between(&mut self) -> Result<(), Error> {
+        let t_next = self.start_time + T::from_f64((self.steps + 1) as f64) * self.step;
+        let run = on_slices!(self);
+        let mut room = Room::within(&mut self.room, self.mechanism.declared_info());
+        let growth = self.stepper.step(run.at, run.inputs, &run.gains, run.step, t_next);
+        let next = At { t: t_next, q: self.stepper.q(), v: self.stepper.v() };
+        let is_finite = next.q.iter().chain(next.v).all(|x| x.is_finite());
+        if is_finite && run.is_calm(next, growth, &self.watch, &mut room) {
+            self.watch.note(growth);
+            copy(&mut self.q, self.stepper.q());
+            copy(&mut self.v, self.stepper.v());
+        } else {
+            let (mut q, mut v) = (self.q.clone(), self.v.clone());
+            run.step(t_next, [&mut q, &mut v], &mut self.watch, &mut room)?;
+            (self.q, self.v) = (q, v);
+        }
+        self.t = t_next;
+        self.steps += 1;
+        Ok(())
     }
 }
 

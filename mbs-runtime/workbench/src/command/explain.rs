@@ -155,7 +155,11 @@ fn stops(info: &Info) -> String {
     for DeclaredStop { name, formula, unit, .. } in info.stops {
         table.row([*name, *formula, *unit]);
     }
-    section(&mut text, "Stops: these gaps are never negative; runs end a step where one closes", &table);
+    section(
+        &mut text,
+        "Stops: these gaps are never negative; runs to a tolerance end a step where one closes",
+        &table,
+    );
     text
 }
 

@@ -160,9 +160,11 @@ impl Sources {
     pub fn of_pages() -> Self {
         let scripts =
             [&[UPLOT_SCRIPT, DRAWING_SCRIPT, SHAPES_SCRIPT, mbs_live::RUN_SCRIPT][..], &SCRIPTS].concat();
-        // comments stay at home: a page is to be small
+        // comments and indents stay at home: a page is to be small
         let is_code = |line: &&str| !line.trim_start().starts_with("//");
-        let lines: Vec<&str> = scripts.iter().flat_map(|script| script.lines()).filter(is_code).collect();
+        // a text that goes over lines is HTML, in which indents say nothing
+        let lines = scripts.iter().flat_map(|script| script.lines()).filter(is_code).map(str::trim_start);
+        let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
         // the module is unpacked while nothing waits for it
         let script = format!("(async () => {{\n{}\n}})().catch({FAILED});", lines.join("\n"));
         Self { style: format!("{UPLOT_STYLE}\n{STYLE}"), script }

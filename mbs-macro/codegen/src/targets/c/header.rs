@@ -19,6 +19,7 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
         false => ("0", ""),
     };
     let clocks = if target.compiled.sampling.clocks > 0 { include_str!("text/clocks.h") } else { "" };
+    let stops = if target.compiled.stops.is_empty() { "" } else { include_str!("text/stops.h") };
     let parts = [
         comment(&format!("{}\n\n{HEAD}", target.compiled.doc), ""),
         target.fill(include_str!("text/header_head.h")),
@@ -29,7 +30,7 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
             &include_str!("text/header.h")
                 .replace("AT_FIRST", at_first)
                 .replace("DEFAULT_INPUTS", default_inputs)
-                .replace("CLOCKED", clocks)
+                .replace("CLOCKED", &format!("{clocks}{stops}"))
                 .replace("HELD", &deadbeat(Explicit::held(scheme)))
                 .replace("STAGED", &deadbeat(Explicit::per_stage(scheme))),
         ),
@@ -76,7 +77,10 @@ fn counts(target: &Target<'_>) -> String {
     ];
     let Sampling { memories, clocks, samples } = &compiled.sampling;
     let of_clocks = [("CLOCKS", *clocks), ("MEMORIES", *memories), ("SAMPLES", samples.len())];
-    for (name, count) in others.into_iter().chain(of_clocks.into_iter().filter(|_| *clocks > 0)) {
+    let of_stops = [("STOPS", compiled.stops.len()), ("CONTACTS", compiled.length(Results::Contacts))];
+    let of_clocks = of_clocks.into_iter().filter(|_| *clocks > 0);
+    let of_stops = of_stops.into_iter().filter(|_| !compiled.stops.is_empty());
+    for (name, count) in others.into_iter().chain(of_clocks).chain(of_stops) {
         let _ = writeln!(text, "    {capitals}_{name} = {count},");
     }
     text + "};\n\n"

@@ -24,7 +24,6 @@ use std::cell::RefCell;
 
 use mbs_symbolic::Inconsistency;
 
-use super::without_stops;
 use crate::compiled::Compiled;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use names::Names;
@@ -109,7 +108,6 @@ pub fn c_with_tangents(compiled: &Compiled, scalar: Scalar) -> Result<CSources, 
 }
 
 fn printed(compiled: &Compiled, scalar: Scalar, has_tangents: bool) -> Result<CSources, Diagnostics> {
-    without_stops(compiled, "C code")?;
     let names = Names::new(compiled);
     let target = Target { compiled, names: &names, scalar, faults: RefCell::default() };
     let internal = |fault: Inconsistency| Diagnostic::internal(compiled.written.name.span(), fault);

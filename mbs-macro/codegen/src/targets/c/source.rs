@@ -20,16 +20,23 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
     } else {
         "run->is_held ? NAME_step_held(run, t_next) : NAME_step_per_stage(run, t_next)"
     };
+    let has_stops = !target.compiled.stops.is_empty();
     let code = [
         kernels.iter().map(Kernel::text).collect(),
         target.fill(include_str!("text/vectors.c")),
         target.fill(include_str!("text/init.c")),
         target.fill(default_inputs(target)),
         target.fill(states(target)),
-        target.fill(&unsampled(target.compiled, &beginning(target.compiled, include_str!("text/start.c")))),
+        target.fill(&within(target.compiled, &beginning(target.compiled, include_str!("text/start.c")))),
         target.fill(include_str!("text/step.c")),
         fused.iter().map(Kernel::text).collect(),
-        target.fill(&unsampled(target.compiled, include_str!("text/results.c")).replace("STEP", step)),
+        target.fill(if has_stops { include_str!("text/contacts.c") } else { "" }),
+        target.fill(&within(target.compiled, &results(target.compiled)).replace("STEP", step)),
+        target.fill(&if has_stops {
+            unsampled(target.compiled, include_str!("text/stops.c"))
+        } else {
+            String::new()
+        }),
         target.fill(if target.compiled.sampling.clocks > 0 { include_str!("text/clocks.c") } else { "" }),
     ];
     let code = code.concat();
@@ -50,13 +57,34 @@ fn default_inputs(target: &Target<'_>) -> &'static str {
     if target.compiled.has_declared_inputs() { include_str!("text/inputs.c") } else { "" }
 }
 
+/// The functions that start and step a run. Clocks and stops have their own around them.
+const STARTS_AND_STEPS: [&str; 3] = ["start", "start_from", "step"];
+
+/// A text whose starts and steps are those within what stops, or else clocks, do.
+fn within(compiled: &Compiled, text: &str) -> String {
+    if compiled.stops.is_empty() {
+        return unsampled(compiled, text);
+    }
+    STARTS_AND_STEPS.into_iter().fold(text.to_owned(), |text, name| {
+        text.replace(&format!("int NAME_{name}(struct"), &format!("static int NAME_{name}_free(struct"))
+    })
+}
+
 /// A text whose starts and steps are those without samples, where there are clocks.
 fn unsampled(compiled: &Compiled, text: &str) -> String {
-    let mut text = text.to_owned();
-    for name in ["start", "start_from", "step"].into_iter().filter(|_| compiled.sampling.clocks > 0) {
-        text = text.replace(&format!("int NAME_{name}(struct"), &format!("int NAME_{name}_unsampled(struct"));
+    if compiled.sampling.clocks == 0 {
+        return text.to_owned();
     }
-    text
+    STARTS_AND_STEPS.into_iter().fold(text.to_owned(), |text, name| {
+        text.replace(&format!("int NAME_{name}(struct"), &format!("int NAME_{name}_unsampled(struct"))
+    })
+}
+
+/// What a run gives; forces at stops only where there are any.
+fn results(compiled: &Compiled) -> String {
+    let text = include_str!("text/results.c");
+    let is_kept = |line: &&str| !compiled.stops.is_empty() || !line.contains("NAME_press(");
+    text.split_inclusive('\n').filter(is_kept).collect()
 }
 
 /// A text in which inputs begin at their declared values; where these are 0, they are so already.
@@ -136,6 +164,11 @@ fn tables(target: &Target<'_>) -> String {
         let declaration =
             "/* The clock and the memory of every sample. */\nstatic const int NAME_sample_places[][2]";
         add(declaration, places, "{0, 0}");
+    }
+    if !compiled.stops.is_empty() {
+        let places = compiled.stops.iter().map(|stop| stop.memory.to_string()).collect();
+        let declaration = "/* The first memory of every stop. */\nstatic const int NAME_stop_places[]";
+        add(declaration, places, "0");
     }
     let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
     add(

@@ -98,13 +98,14 @@ fn numbers(compiled: &Compiled, references: &References, experiment: Experiment)
          struct feedback {{\n    double alpha, beta;\n    int is_held;\n}};\n\
          static const struct feedback CO_SIMULATION = {};\n\
          static const struct feedback MODEL_EXCHANGE = {};\n\
-         enum {{ HAS_DECLARED_GAINS = {} }};\n\n\
+         enum {{ HAS_DECLARED_GAINS = {}, HAS_STOPS = {} }};\n\n\
          /* The pivot growth from which on a position is singular. */\n\
          static const double GROWTH_LIMIT = {GROWTH_LIMIT:?};\n\n\
          static const char TOKEN[] = \"{TOKEN}\";\n\n",
         gains(simulation),
         gains(Feedback { is_held: false, ..exchange }),
         u8::from(compiled.choices.feedback.is_some()),
+        u8::from(!compiled.stops.is_empty()),
     );
     text
 }

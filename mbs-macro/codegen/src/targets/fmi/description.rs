@@ -57,8 +57,10 @@ impl Description<'_> {
             .document()
     }
 
-    /// Model exchange and co-simulation, with what both can do.
-    fn interfaces(&self, version: Version) -> [Element; 2] {
+    /// Model exchange and co-simulation, with what both can do. Impacts at stops are seen by co-simulation alone, and have
+    /// no derivatives.
+    fn interfaces(&self, version: Version) -> Vec<Element> {
+        let is_smooth = self.compiled.stops.is_empty();
         let interface = |name| {
             let it = Element::new(name).with("modelIdentifier", self.identifier);
             match version {
@@ -66,17 +68,17 @@ impl Description<'_> {
                     .with("canNotUseMemoryManagementFunctions", true)
                     .with("canGetAndSetFMUstate", true)
                     .with("canSerializeFMUstate", true)
-                    .with("providesDirectionalDerivative", true),
+                    .with("providesDirectionalDerivative", is_smooth),
                 Version::V3 => it
                     .with("canGetAndSetFMUState", true)
                     .with("canSerializeFMUState", true)
-                    .with("providesDirectionalDerivatives", true)
-                    .with("providesAdjointDerivatives", true),
+                    .with("providesDirectionalDerivatives", is_smooth)
+                    .with("providesAdjointDerivatives", is_smooth),
             }
         };
         let (exchange, simulation) = (interface("ModelExchange"), interface("CoSimulation"));
         let simulation = simulation.with("canHandleVariableCommunicationStepSize", true);
-        match version {
+        let [exchange, simulation] = match version {
             Version::V2 => {
                 let files = || self.sources.iter().map(|name| Element::new("File").with("name", name));
                 let sources = || [Element::new("SourceFiles").holding(files())];
@@ -84,7 +86,8 @@ impl Description<'_> {
                 [exchange.holding(sources()), simulation.holding(sources())]
             }
             Version::V3 => [exchange, simulation.number("fixedInternalStepSize", Some(self.experiment.step))],
-        }
+        };
+        is_smooth.then_some(exchange).into_iter().chain([simulation]).collect()
     }
 
     /// Which variables are results, and what they depend on.

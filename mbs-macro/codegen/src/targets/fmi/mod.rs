@@ -31,7 +31,6 @@ use description::Description;
 use variables::References;
 
 use super::c::{File, Scalar, c_with_tangents};
-use super::without_stops;
 use crate::compiled::Compiled;
 use crate::diagnostics::Diagnostics;
 
@@ -100,7 +99,6 @@ pub struct Fmu {
 /// A program that would be written in another way than it was checked in, which is a mistake
 /// of the compiler.
 pub fn fmi(compiled: &Compiled, experiment: Experiment) -> Result<Fmu, Diagnostics> {
-    without_stops(compiled, "a functional mock-up unit")?;
     let c = c_with_tangents(compiled, Scalar::Double)?;
     let references = References::new(compiled);
     let variables = variables::all(compiled, &references);

@@ -27,7 +27,6 @@ use wasm_encoder::{
     GlobalSection, GlobalType, ImportSection, MemorySection, MemoryType, Module, TypeSection, ValType,
 };
 
-use super::without_stops;
 use crate::compiled::Compiled;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use memory::Memory;
@@ -40,6 +39,7 @@ pub const RUN_SCRIPT: &str = concat!(
     "const mbs = (() => {\n\"use strict\";\n",
     include_str!("text/mechanism.js"),
     include_str!("text/start.js"),
+    include_str!("text/stops.js"),
     include_str!("text/step.js"),
     "return { Failure, Mechanism, Run, largest, add };\n})();\n",
 );
@@ -77,7 +77,6 @@ pub struct Wasm {
 /// # Errors
 /// A program that reads what its function is not given, which is a mistake of the compiler.
 pub fn wasm(compiled: &Compiled) -> Result<Wasm, Diagnostics> {
-    without_stops(compiled, "a page")?;
     let internal = |fault| Diagnostic::internal(compiled.written.name.span(), fault);
     let module = module(compiled).map_err(internal)?;
     Ok(Wasm { module, tables: tables::tables(compiled) })

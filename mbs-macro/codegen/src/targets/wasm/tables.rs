@@ -40,6 +40,8 @@ pub fn tables(compiled: &Compiled) -> String {
             "samples",
             array(compiled.sampling.samples.iter().map(|[clock, memory]| format!("[{clock},{memory}]"))),
         ),
+        ("stops", array(compiled.stops.iter().map(|stop| stop.memory.to_string()))),
+        ("contacts", compiled.length(Results::Contacts).to_string()),
         ("coordinates", quantities(&compiled.coordinates)),
         ("lines", compiled.line_count.to_string()),
         ("outputs", quantities(&compiled.outputs)),

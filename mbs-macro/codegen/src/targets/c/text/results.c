@@ -14,6 +14,7 @@ int NAME_reactions(struct NAME_run *run, struct NAME_reactions *reactions)
     reactions->growth = NAME_compute_reactions(
         run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, acceleration,
         &reactions->multipliers);
+    reactions->growth = reactions->growth + NAME_press(run, reactions);
     const int row = NAME_first_non_finite(NAME_elements(&reactions->multipliers), CAPS_CONSTRAINTS);
     const int is_good = reactions->growth < NAME_growth_limit
         && NAME_is_finite(acceleration);
@@ -84,6 +85,8 @@ const char *NAME_where(const struct NAME_run *run, int code)
     case CAPS_OUT_OF_REACH:
     case CAPS_UNDEFINED_MULTIPLIER: return NAME_constraint_names[run->where];
     case CAPS_UNDEFINED_OUTPUT: return NAME_output_names[run->where];
+    case CAPS_BEHIND:
+    case CAPS_IMPACT:
     case CAPS_BAD_INPUT: return NAME_input_names[run->where];
     default: return "";
     }

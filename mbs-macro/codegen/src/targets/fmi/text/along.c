@@ -114,6 +114,9 @@ static int forward(
     struct instance *it, const uint32_t *unknowns, size_t unknown_count, const uint32_t *knowns, size_t known_count,
     const double *seed, double *sensitivity)
 {
+    if (HAS_STOPS) {
+        return say(it, WRONG, "a mechanism with stops has no derivatives, since impacts have none");
+    }
     struct rates rates = {0};
     const int code = solve(it);
     if (code != CAPS_OK) {

@@ -151,6 +151,10 @@ static struct instance *made(const char *name, int is_co_simulation)
 /* Whether the importer read the description of this very mechanism. */
 static int is_of(const struct instance *it, const char *token)
 {
+    if (HAS_STOPS && !it->is_co_simulation) {
+        say(it, WRONG, "the impacts of stops are seen by co-simulation alone");
+        return 0;
+    }
     if (token && strcmp(token, TOKEN) == 0) {
         return 1;
     }

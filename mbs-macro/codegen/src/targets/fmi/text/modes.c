@@ -130,6 +130,7 @@ static int lead_to(struct memory *now, double end, double rounding)
     for (double step = 0.0; code == CAPS_OK && step < steps; step += 1.0) {
         code = NAME_step(run);
     }
+    take_memories(now);
     return code;
 }
 

@@ -3,7 +3,15 @@
 #define ELEMENTS(vector) ((const double *)&(vector))
 #define PLACES(vector) ((double *)&(vector))
 
-CLOCKED/* Makes mechanism and start anew where parameters have changed. A run that goes on keeps its state, since no
+CLOCKED/* Takes the memories over that a run has come to. */
+static void take_memories(struct memory *now)
+{
+    for (int at = AT_MEMORIES - AT_INPUTS; at < CAPS_INPUTS; at++) {
+        PLACES(now->inputs)[at] = ELEMENTS(now->run.inputs)[at];
+    }
+}
+
+/* Makes mechanism and start anew where parameters have changed. A run that goes on keeps its state, since no
    constraint knows of the parameters that may change then. */
 static int start(struct instance *it)
 {
@@ -26,6 +34,7 @@ static int start(struct instance *it)
         now->states[at] = ELEMENTS(now->run.state.q)[STATE_PLACES[at]];
         now->states[STATE_COUNT + at] = ELEMENTS(now->run.state.v)[STATE_PLACES[at]];
     }
+    take_memories(now);
     now->is_started = 1;
     now->is_solved = 0;
     begin_clocks(now);

@@ -31,6 +31,7 @@ class Start {
     this.begin();
     const free = this.inputs.length - this.tables.memories;
     this.tables.inputs.slice(free).forEach((memory, at) => { this.inputs[free + at] = memory.value; });
+    this.touch();
     this.sample();
   }
 
@@ -45,6 +46,7 @@ class Start {
       this.projectVelocities("projection");
       this.check(this.q, this.v);
       this.begin();
+      this.touch();
     } catch (failure) {
       this.q.set(before[0]);
       this.v.set(before[1]);

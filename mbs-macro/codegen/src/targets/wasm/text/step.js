@@ -1,10 +1,16 @@
 // The steps of a run, and what it gives.
-class Run extends Start {
+class Run extends AtStops {
   // One step.
   step() {
+    if (this.tables.stops.length) this.toStops(() => this.stepBetween());
+    else this.stepBetween();
+    this.sample();
+  }
+
+  // A step of which clocks and stops know nothing.
+  stepBetween() {
     const tNext = this.startTime + (this.steps + 1) * this.h;
     if (!(this.tables.fused && this.stepAtOnce(tNext))) this.stepByStages(tNext);
-    this.sample();
   }
 
   // All stages in one function; false if the step was not calm.
@@ -148,7 +154,8 @@ class Run extends Start {
   // Multipliers and outputs of the present state; not numbers where they are not defined.
   results() {
     const m = this.mechanism, n = this.q.length, multipliers = m.reactions.subarray(n);
-    const growth = m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, multipliers);
+    let growth = m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, multipliers);
+    growth = growth + this.press(m.reactions);
     if (!(growth < this.tables.growthLimit)) m.reactions.fill(NaN);
     m.call("outputs", this.t, this.q, this.v, this.inputs, m.reactions, m.outputs);
     return { multipliers, outputs: m.outputs };

@@ -1,0 +1,304 @@
+/* Stops at the ends of steps: time stepping by Moreau and Jean. */
+
+/* Sets the memories of stops: which are rested on, and what impulses add up to. */
+static void NAME_note_stops(struct NAME_run *run, const int *held, const real *impulses)
+{
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        real *const memory = NAME_places(&run->inputs) + NAME_stop_places[stop];
+        memory[0] = held[stop] ? 1 : 0;
+        memory[1] = memory[1] + impulses[stop];
+    }
+}
+
+/* The first stop of a set has no answer. */
+static int NAME_unanswered(struct NAME_run *run, const int *set)
+{
+    int first = 0;
+    while (first < CAPS_STOPS - 1 && !set[first]) {
+        first++;
+    }
+    run->where = NAME_stop_places[first];
+    return CAPS_IMPACT;
+}
+
+/* The rates with which gaps open that close with others. */
+static void NAME_rebound(const struct NAME_run *run, const real *rates, real *rebounds)
+{
+    real laws[2 * CAPS_STOPS] = {0};
+    NAME_compute_stop_laws(run->mechanism, laws);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        rebounds[stop] = rates[stop] < 0 ? -(laws[2 * stop] * rates[stop]) : 0;
+    }
+}
+
+/* How impulses change the rates of gaps. */
+static void NAME_change_rates(const real *contacts, const real *impulses, real *rates)
+{
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        real change = 0;
+        for (int by = 0; by < CAPS_STOPS; by++) {
+            change = change + NAME_mobility(contacts, stop, by) * impulses[by];
+        }
+        rates[stop] = rates[stop] + change;
+    }
+}
+
+/* The rates that forces at the stops of a set take from gaps in a step, in which gaps change their rates without them; 0
+   where there are none. */
+static int NAME_hold_back(const real *contacts, const int *set, const real *change, real *taken)
+{
+    const int is_answered = NAME_complementary(contacts, set, change, taken);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        taken[stop] = NAME_mobility(contacts, stop, stop) * taken[stop];
+    }
+    return is_answered;
+}
+
+/* Half of what the forces of rest do in a step, before it. */
+static int NAME_push(struct NAME_run *run, int *pushed)
+{
+    const struct NAME *const m = run->mechanism;
+    struct NAME_state *const at = &run->state;
+    const struct NAME_constraints no_feedback = {0};
+    const real half = (real)0.5 * run->step;
+    struct NAME_reactions reactions = {0};
+    real gaps[3 * CAPS_STOPS] = {0}, contacts[CAPS_CONTACTS] = {0}, b[CAPS_STOPS], forces[CAPS_STOPS];
+    int held[CAPS_STOPS];
+    if (!NAME_find_held(run, held)) {
+        return CAPS_OK;
+    }
+    NAME_compute_reactions(
+        m, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions.acceleration, &reactions.multipliers);
+    NAME_compute_gaps(m, at->t, &at->q, &at->v, &reactions, gaps);
+    NAME_compute_contacts(m, at->t, &at->q, contacts);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        b[stop] = gaps[3 * stop + 2];
+    }
+    if (!NAME_complementary(contacts, held, b, forces)) {
+        return NAME_unanswered(run, held);
+    }
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        pushed[stop] = forces[stop] > 0;
+        forces[stop] = half * forces[stop];
+    }
+    NAME_add_responses(contacts, forces, 0, CAPS_COORDINATES, NAME_places(&at->v));
+    return CAPS_OK;
+}
+
+/* What stops make of a step: the rates of gaps at its start and its end, and what lies behind their closing. */
+struct NAME_answer {
+    real before[CAPS_STOPS], now[CAPS_STOPS], gap_now[CAPS_STOPS];
+    /* the part of the step behind the closing of a gap, and what an impulse moves positions by */
+    real rest[CAPS_STOPS], shift[CAPS_STOPS];
+    int closed[CAPS_STOPS], held[CAPS_STOPS], is_impact;
+    real impulses[CAPS_STOPS], moved[CAPS_STOPS], gaps[CAPS_STOPS];
+};
+
+/* An impact at the gaps that are closing, with these rates; 0 where no impulses answer it. */
+static int NAME_hit(
+    const struct NAME_run *run, const real *contacts, const real *rates, const int *closing, const int *hit, int turn,
+    struct NAME_answer *it)
+{
+    real change[CAPS_STOPS], taken[CAPS_STOPS], approach[CAPS_STOPS], thrown[CAPS_STOPS], wanted[CAPS_STOPS];
+    real more[CAPS_STOPS];
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        change[stop] = it->now[stop] - it->before[stop];
+        approach[stop] = turn == 0 ? it->now[stop] - it->rest[stop] * change[stop] : rates[stop];
+    }
+    if (!NAME_hold_back(contacts, it->closed, change, taken)) {
+        return 0;
+    }
+    NAME_rebound(run, approach, thrown);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        const real later = turn == 0 ? it->rest[stop] * change[stop] : 0;
+        /* what closes in the last of all impacts is rested on */
+        it->held[stop] = it->closed[stop] && (turn == 15 || thrown[stop] <= taken[stop]);
+        /* a force that presses for a step is no impact */
+        it->is_impact = it->is_impact || (hit[stop] && -approach[stop] > taken[stop]);
+        const real target = it->held[stop] ? 0 : thrown[stop] + later;
+        wanted[stop] = rates[stop] - (target > 0 ? target : 0);
+    }
+    if (!NAME_complementary(contacts, closing, wanted, more)) {
+        return 0;
+    }
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        it->impulses[stop] = it->impulses[stop] + more[stop];
+    }
+    return 1;
+}
+
+/* The impulses at the stops that are closed, or that impulses close, one impact after the other; 0 where there are none. */
+static int NAME_find_impulses(const struct NAME_run *run, const real *contacts, struct NAME_answer *it)
+{
+    if (!(contacts[CAPS_CONTACTS - 1] < NAME_growth_limit)) {
+        return 0;
+    }
+    for (int turn = 0; turn <= 16; turn++) {
+        real rates[CAPS_STOPS];
+        int closing[CAPS_STOPS], hit[CAPS_STOPS], is_hit = 0;
+        for (int stop = 0; stop < CAPS_STOPS; stop++) {
+            it->moved[stop] = it->impulses[stop] * it->shift[stop];
+            it->gaps[stop] = it->gap_now[stop];
+            rates[stop] = it->now[stop];
+        }
+        NAME_change_rates(contacts, it->moved, it->gaps);
+        NAME_change_rates(contacts, it->impulses, rates);
+        for (int stop = 0; stop < CAPS_STOPS; stop++) {
+            double size = fabs((double)it->before[stop]) + fabs((double)it->now[stop]);
+            for (int by = 0; by < CAPS_STOPS; by++) {
+                size = size + fabs((double)NAME_mobility(contacts, stop, by) * (double)it->impulses[by]);
+            }
+            it->closed[stop] = it->closed[stop] || it->gaps[stop] <= 0;
+            closing[stop] = it->closed[stop] && (double)rates[stop] <= 1e-12 * size;
+            hit[stop] = closing[stop] && (double)rates[stop] < -(1e-12 * size);
+            is_hit = is_hit || hit[stop];
+        }
+        if (turn == 16 || !is_hit) {
+            for (int stop = 0; stop < CAPS_STOPS; stop++) {
+                it->held[stop] = closing[stop] && it->held[stop] && it->impulses[stop] > 0;
+            }
+            return 1;
+        }
+        if (!NAME_hit(run, contacts, rates, closing, hit, turn, it)) {
+            return 0;
+        }
+    }
+    return 0;
+}
+
+/* Leads the end of a step back from the stops that are closed there, or that are closed by impulses at these. */
+static int NAME_strike(struct NAME_run *run, const int *pushed, const struct NAME_state *before)
+{
+    const struct NAME *const m = run->mechanism;
+    struct NAME_state *const at = &run->state;
+    const struct NAME_reactions still = {0};
+    struct NAME_answer it = {0};
+    struct NAME_coordinates of_q = {0}, of_v = {0}, begun = {0};
+    struct NAME_constraints rows = {0};
+    real now[3 * CAPS_STOPS] = {0}, was[3 * CAPS_STOPS] = {0}, rated[3 * CAPS_STOPS] = {0};
+    real contacts[CAPS_CONTACTS] = {0}, shifts[CAPS_STOPS];
+    int is_closed = 0;
+    NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        it.closed[stop] = pushed[stop] || now[3 * stop] <= 0;
+        is_closed = is_closed || it.closed[stop];
+    }
+    if (!is_closed) {
+        NAME_note_stops(run, it.held, it.impulses);
+        return CAPS_OK;
+    }
+    NAME_compute_gaps(m, before->t, &before->q, &before->v, &still, was);
+    /* the velocities of the start as joints and gaps at the end have them: what is left are the changes by forces */
+    NAME_compute_phi_dot(m, at->t, &at->q, &before->v, &rows);
+    NAME_compute_projection(m, at->t, &at->q, &rows, &of_v);
+    for (int j = 0; j < CAPS_COORDINATES; j++) {
+        NAME_places(&begun)[j] = NAME_elements(&before->v)[j] - NAME_elements(&of_v)[j];
+        NAME_places(&of_v)[j] = 0;
+    }
+    NAME_compute_gaps(m, at->t, &at->q, &begun, &still, rated);
+    NAME_compute_contacts(m, at->t, &at->q, contacts);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        const real gap = was[3 * stop], end = now[3 * stop];
+        const real part = gap > 0 && end < gap ? gap / (gap - end) : 0;
+        it.gap_now[stop] = end;
+        it.before[stop] = rated[3 * stop + 1];
+        it.now[stop] = now[3 * stop + 1];
+        it.rest[stop] = part < 1 ? 1 - part : 0;
+        it.shift[stop] = pushed[stop] ? 0 : it.rest[stop] * run->step;
+    }
+    if (!NAME_find_impulses(run, contacts, &it)) {
+        return NAME_unanswered(run, it.closed);
+    }
+    NAME_solve_at_stops(contacts, it.held, it.gaps, shifts);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        shifts[stop] = it.moved[stop] + shifts[stop];
+    }
+    NAME_add_responses(contacts, shifts, 0, CAPS_COORDINATES, NAME_places(&of_q));
+    NAME_add_responses(contacts, it.impulses, 0, CAPS_COORDINATES, NAME_places(&of_v));
+    NAME_add(NAME_places(&at->q), 1, NAME_elements(&of_q), CAPS_COORDINATES);
+    NAME_add(NAME_places(&at->v), 1, NAME_elements(&of_v), CAPS_COORDINATES);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        it.impulses[stop] = it.is_impact ? it.impulses[stop] : 0;
+    }
+    NAME_note_stops(run, it.held, it.impulses);
+    return CAPS_OK;
+}
+
+/* Rests on the stops that a start touches; one behind a stop is refused. */
+static int NAME_touch(struct NAME_run *run)
+{
+    const struct NAME_state *const at = &run->state;
+    const struct NAME_constraints no_feedback = {0};
+    const double size = 1e-9 * (1e-3 + (double)NAME_largest(NAME_elements(&at->q), CAPS_LINES));
+    struct NAME_reactions reactions = {0};
+    real gaps[3 * CAPS_STOPS] = {0}, contacts[CAPS_CONTACTS] = {0}, thrown[CAPS_STOPS], taken[CAPS_STOPS];
+    real b[CAPS_STOPS], forces[CAPS_STOPS];
+    const real none[CAPS_STOPS] = {0};
+    int closed[CAPS_STOPS], settled[CAPS_STOPS];
+    NAME_compute_reactions(
+        run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions.acceleration,
+        &reactions.multipliers);
+    NAME_compute_gaps(run->mechanism, at->t, &at->q, &at->v, &reactions, gaps);
+    NAME_compute_contacts(run->mechanism, at->t, &at->q, contacts);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        b[stop] = gaps[3 * stop + 1];
+    }
+    NAME_rebound(run, b, thrown);
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        const real *const slopes =
+            contacts + stop * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS) + CAPS_COORDINATES + CAPS_CONSTRAINTS;
+        double slope = 0;
+        for (int j = 0; j < CAPS_COORDINATES; j++) {
+            slope = slope + fabs((double)slopes[j]);
+        }
+        if ((double)gaps[3 * stop] < -(size * slope)) {
+            run->where = NAME_stop_places[stop];
+            return CAPS_BEHIND;
+        }
+        closed[stop] = (double)gaps[3 * stop] <= size * slope;
+        b[stop] = run->step * gaps[3 * stop + 2];
+    }
+    if (!NAME_hold_back(contacts, closed, b, taken)) {
+        return NAME_unanswered(run, closed);
+    }
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        settled[stop] = closed[stop] && gaps[3 * stop + 1] <= taken[stop] && thrown[stop] <= taken[stop];
+        b[stop] = gaps[3 * stop + 2];
+    }
+    if (!NAME_complementary(contacts, settled, b, forces)) {
+        return NAME_unanswered(run, settled);
+    }
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        settled[stop] = forces[stop] > 0;
+    }
+    NAME_note_stops(run, settled, none);
+    return CAPS_OK;
+}
+
+int NAME_start(struct NAME_run *run, const struct NAME *m, double step)
+{
+    const int code = NAME_start_free(run, m, step);
+    return code == CAPS_OK ? NAME_touch(run) : code;
+}
+
+int NAME_start_from(struct NAME_run *run, const struct NAME_state *state)
+{
+    const int code = NAME_start_from_free(run, state);
+    return code == CAPS_OK ? NAME_touch(run) : code;
+}
+
+int NAME_step(struct NAME_run *run)
+{
+    const struct NAME_run before = *run;
+    int pushed[CAPS_STOPS] = {0};
+    int code = NAME_push(run, pushed);
+    code = code == CAPS_OK ? NAME_step_free(run) : code;
+    code = code == CAPS_OK ? NAME_strike(run, pushed, &before.state) : code;
+    if (code != CAPS_OK) {
+        const int where = run->where;
+        *run = before;
+        run->where = where;
+    }
+    return code;
+}
+

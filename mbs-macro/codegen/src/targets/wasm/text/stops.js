@@ -1,0 +1,253 @@
+// Stops at the ends of steps: time stepping by Moreau and Jean; see `stops.c`.
+class AtStops extends Start {
+  // A set of stops, and a number per stop.
+  each(what) {
+    return Array.from({ length: this.tables.stops.length }, (_, stop) => what(stop));
+  }
+
+  // Gap, rate and second derivative of every stop.
+  gapsAt(t, q, v, reactions) {
+    const { gaps } = this.mechanism;
+    this.mechanism.call("gaps", t, q, v, reactions, gaps);
+    return this.each((stop) => ({ gap: gaps[3 * stop], rate: gaps[3 * stop + 1], second: gaps[3 * stop + 2] }));
+  }
+
+  // Where the responses to a unit impulse at a stop begin.
+  responses(stop) {
+    return stop * (2 * this.q.length + this.tables.constraints.length);
+  }
+
+  // How the rate of one gap answers a unit impulse at a stop.
+  mobility(of, by) {
+    return this.mechanism.contacts[this.responses(this.tables.stops.length) + by * this.tables.stops.length + of];
+  }
+
+  // x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set.
+  solveAtStops(set, b) {
+    const members = this.each((stop) => stop).filter((stop) => set[stop]), x = this.each(() => 0);
+    const rows = members.map((of) => [...members.map((by) => this.mobility(of, by)), -b[of]]);
+    const least = rows.map((row, at) => 1e-10 * row[at]), isPivot = [];
+    for (let at = 0; at < rows.length; at++) {
+      const pivot = rows[at][at];
+      isPivot[at] = pivot > least[at];
+      if (!isPivot[at]) continue;
+      rows.forEach((row, other) => {
+        if (other === at) return;
+        const factor = row[at] / pivot;
+        row.forEach((entry, column) => { row[column] = entry - factor * rows[at][column]; });
+      });
+    }
+    members.forEach((stop, at) => { x[stop] = isPivot[at] ? rows[at][members.length] / rows[at][at] : 0; });
+    return x;
+  }
+
+  // The first stop of a set that is pulled, or that is left free and closes.
+  leastWrong(set, active, b, x) {
+    const largest = x.reduce((largest, it) => (Math.abs(it) > largest ? Math.abs(it) : largest), 0);
+    return b.findIndex((own, stop) => {
+      if (!set[stop]) return false;
+      if (active[stop] && x[stop] < -1e-12 * largest) return true;
+      let rate = own, size = Math.abs(own);
+      x.forEach((force, by) => {
+        const term = this.mobility(stop, by) * force;
+        rate = rate + term;
+        size = size + Math.abs(term);
+      });
+      return rate < -1e-12 * size;
+    });
+  }
+
+  // The first active stop whose impulse becomes 0 where that of one grows that depends on them; -1 where there is none.
+  exchanged(active, by, x) {
+    const shares = this.solveAtStops(active.map((it, stop) => it && stop !== by), this.each((of) => -this.mobility(of, by)));
+    return shares.reduce((first, share, stop) => {
+      const isFirst = share > 1e-10 && (first < 0 || x[stop] / share < x[first] / shares[first]);
+      return isFirst ? stop : first;
+    }, -1);
+  }
+
+  // x >= 0 with W x + b >= 0 at the stops of a set, one or the other 0 at each, by pivots of the least index.
+  complementary(set, b) {
+    const active = this.each(() => false);
+    for (let pivots = 0; pivots < 512; pivots++) {
+      const x = this.solveAtStops(active, b);
+      let wrong = this.leastWrong(set, active, b, x);
+      if (wrong < 0) return x;
+      // an active one that closes all the same depends on others: it takes the place of one of them
+      if (active[wrong] && x[wrong] === 0) wrong = this.exchanged(active, wrong, x);
+      if (wrong < 0) break;
+      active[wrong] = !active[wrong];
+    }
+    return this.failAtStop("IMPACT", set.indexOf(true));
+  }
+
+  failAtStop(code, stop) {
+    return this.fail(code, this.tables.inputs[this.tables.stops[stop]].name);
+  }
+
+  // Adds what impulses or forces at stops do to velocities, accelerations or multipliers.
+  addResponses(x, from, to) {
+    const { contacts } = this.mechanism;
+    x.forEach((force, stop) => {
+      const begin = this.responses(stop) + from;
+      if (force !== 0) add(to, force, contacts.subarray(begin, begin + to.length));
+    });
+  }
+
+  // Sets the memories of stops: which are rested on, and what impulses add up to.
+  noteStops(held, impulses) {
+    this.tables.stops.forEach((memory, stop) => {
+      this.inputs[memory] = held[stop] ? 1 : 0;
+      this.inputs[memory + 1] = this.inputs[memory + 1] + impulses[stop];
+    });
+  }
+
+  // The rates with which gaps open that close with others.
+  rebounds(rates) {
+    const { stopLaws } = this.mechanism;
+    this.mechanism.call("stop_laws", stopLaws);
+    return rates.map((rate, stop) => (rate < 0 ? -(stopLaws[2 * stop] * rate) : 0));
+  }
+
+  // Rates of gaps, changed by impulses.
+  changed(rates, impulses) {
+    return rates.map((rate, stop) =>
+      rate + impulses.reduce((change, impulse, by) => change + this.mobility(stop, by) * impulse, 0));
+  }
+
+  // The rates that forces at the stops of a set take from gaps in a step.
+  taken(set, change) {
+    return this.complementary(set, change).map((force, stop) => this.mobility(stop, stop) * force);
+  }
+
+  // Adds what the stops do that are rested on; the growth of the responses.
+  press(reactions) {
+    const m = this.mechanism, n = this.q.length, held = this.tables.stops.map((memory) => this.inputs[memory] > 0.5);
+    if (!held.includes(true)) return 0;
+    const gaps = this.gapsAt(this.t, this.q, this.v, reactions);
+    m.call("contacts", this.t, this.q, m.contacts);
+    const forces = this.solveAtStops(held, gaps.map(({ second }) => second));
+    this.addResponses(forces, 0, reactions.subarray(0, n));
+    this.addResponses(forces, n, reactions.subarray(n));
+    return m.contacts[m.contacts.length - 1];
+  }
+
+  // Rests on the stops that a start touches; one behind a stop is refused.
+  touch() {
+    const m = this.mechanism, n = this.q.length, { lines, stops, constraints } = this.tables;
+    if (!stops.length) return;
+    m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
+    const gaps = this.gapsAt(this.t, this.q, this.v, m.reactions), thrown = this.rebounds(gaps.map(({ rate }) => rate));
+    m.call("contacts", this.t, this.q, m.contacts);
+    const size = 1e-9 * (1e-3 + largest(this.q.subarray(0, lines)));
+    const closed = gaps.map(({ gap }, stop) => {
+      const begin = this.responses(stop) + n + constraints.length;
+      const slope = m.contacts.subarray(begin, begin + n).reduce((sum, it) => sum + Math.abs(it), 0);
+      if (gap < -(size * slope)) this.failAtStop("BEHIND", stop);
+      return gap <= size * slope;
+    });
+    const taken = this.taken(closed, gaps.map(({ second }) => this.h * second));
+    const settled = closed.map((it, stop) => it && gaps[stop].rate <= taken[stop] && thrown[stop] <= taken[stop]);
+    const forces = this.complementary(settled, gaps.map(({ second }) => second));
+    this.noteStops(forces.map((force) => force > 0), this.each(() => 0));
+  }
+
+  // Half of what the forces of rest do in a step, before it; the stops that push.
+  push() {
+    const m = this.mechanism, n = this.q.length, held = this.tables.stops.map((memory) => this.inputs[memory] > 0.5);
+    if (!held.includes(true)) return held;
+    m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
+    const gaps = this.gapsAt(this.t, this.q, this.v, m.reactions), half = 0.5 * this.h;
+    m.call("contacts", this.t, this.q, m.contacts);
+    const forces = this.complementary(held, gaps.map(({ second }) => second));
+    this.addResponses(forces.map((force) => half * force), 0, this.v);
+    return forces.map((force) => force > 0);
+  }
+
+  // The impulses at the stops that are closed at the end of a step, or that impulses close, one impact after the other.
+  answer(closed, { before, now, gap, rest, shift }) {
+    const change = now.map((rate, stop) => rate - before[stop]);
+    let impulses = this.each(() => 0), held = this.each(() => false), isImpact = false;
+    for (let turn = 0; ; turn++) {
+      const moved = impulses.map((impulse, stop) => impulse * shift[stop]);
+      const gaps = this.changed(gap, moved), rates = this.changed(now, impulses);
+      gaps.forEach((it, stop) => { closed[stop] = closed[stop] || it <= 0; });
+      const still = rates.map((_, stop) => 1e-12 * impulses.reduce(
+        (size, impulse, by) => size + Math.abs(this.mobility(stop, by) * impulse),
+        Math.abs(before[stop]) + Math.abs(now[stop])));
+      const closing = closed.map((it, stop) => it && rates[stop] <= still[stop]);
+      const hit = closing.map((it, stop) => it && rates[stop] < -still[stop]);
+      if (turn === 16 || !hit.includes(true)) {
+        held = held.map((it, stop) => closing[stop] && it && impulses[stop] > 0);
+        return { impulses, moved, gaps, isImpact, held };
+      }
+      const taken = this.taken(closed, change);
+      const approach = turn === 0 ? now.map((rate, stop) => rate - rest[stop] * change[stop]) : rates;
+      const thrown = this.rebounds(approach);
+      // what closes in the last of all impacts is rested on
+      held = closed.map((it, stop) => it && (turn === 15 || thrown[stop] <= taken[stop]));
+      // a force that presses for a step is no impact
+      isImpact = isImpact || hit.some((it, stop) => it && -approach[stop] > taken[stop]);
+      const wanted = rates.map((rate, stop) => {
+        const later = turn === 0 ? rest[stop] * change[stop] : 0, target = held[stop] ? 0 : thrown[stop] + later;
+        return rate - (target > 0 ? target : 0);
+      });
+      const more = this.complementary(closing, wanted);
+      impulses = impulses.map((impulse, stop) => impulse + more[stop]);
+    }
+  }
+
+  // Leads the end of a step back from the stops that are closed there.
+  strike(pushed, before) {
+    const m = this.mechanism, n = this.q.length;
+    const now = this.gapsAt(this.t, this.q, this.v, m.unmoved);
+    const closed = now.map(({ gap }, stop) => pushed[stop] || gap <= 0);
+    if (!closed.includes(true)) {
+      this.noteStops(closed, this.each(() => 0));
+      return;
+    }
+    m.trialQ.set(before.q);
+    m.trialV.set(before.v);
+    const was = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved);
+    // the velocities of the start as joints and gaps at the end have them: what is left are the changes by forces
+    m.call("phi_dot", this.t, this.q, m.trialV, m.phiDot);
+    m.call("projection", this.t, this.q, m.phiDot, m.delta);
+    m.delta.forEach((change, j) => { m.trialV[j] = m.trialV[j] - change; });
+    const rated = this.gapsAt(this.t, this.q, m.trialV, m.unmoved);
+    m.call("contacts", this.t, this.q, m.contacts);
+    if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("IMPACT", closed.indexOf(true));
+    const rest = now.map(({ gap }, stop) => {
+      const from = was[stop].gap, part = from > 0 && gap < from ? from / (from - gap) : 0;
+      return part < 1 ? 1 - part : 0;
+    });
+    const { impulses, moved, gaps, held, isImpact } = this.answer(closed, {
+      before: rated.map(({ rate }) => rate),
+      now: now.map(({ rate }) => rate),
+      gap: now.map(({ gap }) => gap),
+      rest,
+      shift: rest.map((part, stop) => (pushed[stop] ? 0 : part * this.h)),
+    });
+    const shifts = this.solveAtStops(held, gaps).map((shift, stop) => moved[stop] + shift);
+    const ofQ = new Float64Array(n), ofV = new Float64Array(n);
+    this.addResponses(shifts, 0, ofQ);
+    this.addResponses(impulses, 0, ofV);
+    add(this.q, 1, ofQ);
+    add(this.v, 1, ofV);
+    this.noteStops(held, impulses.map((impulse) => (isImpact ? impulse : 0)));
+  }
+
+  // A step, and what stops make of its end.
+  toStops(step) {
+    const { t, steps, alarm, worstGrowth } = this, q = this.q.slice(), v = this.v.slice();
+    try {
+      const pushed = this.push();
+      step();
+      this.strike(pushed, { t, q, v });
+    } catch (failure) {
+      Object.assign(this, { t, steps, alarm, worstGrowth });
+      this.q.set(q);
+      this.v.set(v);
+      throw failure;
+    }
+  }
+}

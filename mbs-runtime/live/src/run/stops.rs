@@ -1,0 +1,63 @@
+//! Stops at the ends of the steps of a run.
+
+use mbs_runtime::equations::{At, Changes, Equations, begin_at_stops, push, strike};
+use mbs_runtime::{Error, Real};
+
+use super::Run;
+
+impl<T: Real> Run<T> {
+    /// A step, and what stops make of its end.
+    pub(super) fn step_to_stops(&mut self) -> Result<(), Error> {
+        let (q, v, inputs) = (self.q.clone(), self.v.clone(), self.inputs.clone());
+        let (t, steps, watch) = (self.t, self.steps, self.watch);
+        let [q_before, v_before] = self.completed();
+        let before = At { t, q: &q_before, v: &v_before };
+        let led = self.push().and_then(|pushed| {
+            self.step_between()?;
+            self.strike(pushed, before)
+        });
+        if led.is_err() {
+            (self.q, self.v, self.inputs) = (q, v, inputs);
+            (self.t, self.steps, self.watch) = (t, steps, watch);
+        }
+        led
+    }
+
+    /// The stops that push before a step.
+    fn push(&mut self) -> Result<u32, Error> {
+        let [q, mut v] = self.completed();
+        let [still, mut of_q, mut of_v] = [(); 3].map(|()| vec![T::ZERO; q.len()]);
+        let mut rows = vec![T::ZERO; self.multipliers];
+        let changes = Changes { still: &still, rows: &mut rows, q: &mut of_q, v: &mut of_v };
+        let pushed = push(&self.mechanism, (self.step, changes), (self.t, &q, &mut v), &self.inputs)?;
+        if pushed != 0 {
+            self.mechanism.states(&v, &mut self.v);
+        }
+        Ok(pushed)
+    }
+
+    fn strike(&mut self, pushed: u32, before: At<'_, T>) -> Result<(), Error> {
+        let [mut q, mut v] = self.completed();
+        let [still, mut of_q, mut of_v] = [(); 3].map(|()| vec![T::ZERO; q.len()]);
+        let mut rows = vec![T::ZERO; self.multipliers];
+        let changes = Changes { still: &still, rows: &mut rows, q: &mut of_q, v: &mut of_v };
+        let end = (self.t, [&mut q[..], &mut v[..]]);
+        if strike(&self.mechanism, (self.step, changes), (pushed, before), end, &mut self.inputs)? {
+            self.mechanism.states(&q, &mut self.q);
+            self.mechanism.states(&v, &mut self.v);
+        }
+        Ok(())
+    }
+
+    /// Rests on the stops that the start touches.
+    pub(super) fn touch(&mut self) -> Result<(), Error> {
+        if self.mechanism.declared_info().stops.is_empty() {
+            return Ok(());
+        }
+        let [q, v] = self.completed();
+        let (at, none) = (At { t: self.t, q: &q, v: &v }, vec![T::ZERO; self.multipliers]);
+        let mut acceleration = vec![T::ZERO; q.len()];
+        self.mechanism.accelerations(at, &self.inputs, &none, &mut acceleration);
+        begin_at_stops(&self.mechanism, self.step, at, &acceleration, &mut self.inputs)
+    }
+}

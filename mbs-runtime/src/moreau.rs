@@ -1,0 +1,329 @@
+//! Stops in runs with constant steps: time stepping by Moreau and Jean.
+//!
+//! A step is made as if there were no stops. Where a gap g is closed at its end, impulses Λ ≥ 0 act along ∂g/∂q. With the
+//! responses Y to unit impulses and W = ∂g/∂q Y,
+//!
+//! ```text
+//! v⁺ = v + Y Λ,   q⁺ = q + (1 − s) h Y Λ,   W Λ + ġ ≥ e |ġ_s| + (1 − s)(ġ − ġ₀),   one or the other is equal to 0
+//! ```
+//!
+//! where ġ₀ and ġ are the rates of the gap with the velocities at the start and at the end of the step, both at the positions
+//! of the end. The gap closes after the part s of the step, as its values at both ends tell, with the rate ġ_s. Impulses act
+//! at gaps that close; where they make others close, the next impacts follow, each by Newton's law, so that no impulse gives
+//! energy. A rebound that the force at the stop takes back within one step is not flown: the stop is rested on, and its gap is
+//! made 0 by the shortest way by masses.
+//!
+//! Where a stop is rested on at the start of a step, half of the impulse of its force acts before the step and half of it
+//! behind (a symmetric splitting): between, velocities are those of the rest on average, and nothing moves.
+//!
+//! # Source
+//! J. J. Moreau (1988), Unilateral contact and dry friction in finite freedom dynamics; M. Jean, Comput. Methods Appl. Mech.
+//! Eng. 177 (1999) 235; V. Acary, ibid. 256 (2013) 224, for the correction of positions.
+
+use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, has, number, those};
+use crate::equations::{At, Equations};
+use crate::mechanism::growth_limit;
+use crate::pressing::held;
+use crate::{Error, Real, vectors};
+
+/// A start is behind a stop by more than this share of the size of the coordinates,
+const BEHIND: f64 = 1e-9;
+/// which is at least so many m or rad: at the origin nothing else tells what is rounding.
+const LEAST_SIZE: f64 = 1e-3;
+/// So many impacts follow each other within a step. What closes then is rested on.
+const IN_SEQUENCE: usize = 16;
+/// A rate is 0 below this share of the terms of which it is made.
+const ROUNDING: f64 = 1e-12;
+
+/// Vectors to compute with, of a number per coordinate.
+pub struct Changes<'a, T> {
+    /// Zeros.
+    pub still: &'a [T],
+    /// A zero per constraint, at first.
+    pub rows: &'a mut [T],
+    /// Changes of positions.
+    pub q: &'a mut [T],
+    /// Changes of velocities.
+    pub v: &'a mut [T],
+}
+
+/// Half of what the forces of rest do in a step of `h` seconds, before it: adds to velocities. The stops that push.
+///
+/// # Errors
+/// [`Error::Impact`].
+pub fn push<T: Real>(
+    equations: &dyn Equations<T>,
+    (h, changes): (T, Changes<'_, T>),
+    (t, q, v): (T, &[T], &mut [T]),
+    inputs: &[T],
+) -> Result<u32, Error> {
+    let held = held(equations, inputs);
+    if held == 0 {
+        return Ok(0);
+    }
+    let at = At { t, q, v };
+    equations.accelerations(at, inputs, changes.rows, changes.q);
+    let gaps = Gaps::of(equations, at, changes.q);
+    let half = T::from_f64(0.5) * h;
+    let pushing = Contacts::at(equations, (t, q), |contacts| {
+        let (_, forces) = contacts.complementary(held, &gaps.acceleration)?;
+        contacts.add(&forces.map(|force| half * force), v);
+        Some(those(contacts.stops(), |stop| number(&forces, stop) > 0.0))
+    });
+    pushing.flatten().ok_or_else(|| impact(equations, t, held))
+}
+
+/// Leads all coordinates and velocities at the end of a step of `h` seconds back from the stops that are closed there, and
+/// sets the memories of stops. The stops that have [pushed](push) before the step are closed. True if anything has changed.
+///
+/// # Errors
+/// [`Error::Impact`].
+pub fn strike<T: Real>(
+    equations: &dyn Equations<T>,
+    (h, changes): (T, Changes<'_, T>),
+    (pushed, before): (u32, At<'_, T>),
+    (t, [q, v]): (T, [&mut [T]; 2]),
+    inputs: &mut [T],
+) -> Result<bool, Error> {
+    let count = equations.info().stops.len();
+    let now = Gaps::of(equations, At { t, q, v }, changes.still);
+    let closed = pushed | those(count, |stop| number(&now.gap, stop) <= 0.0);
+    if closed == 0 {
+        note(equations, 0, &[T::ZERO; MOST_STOPS], inputs);
+        return Ok(false);
+    }
+    let gap_before = Gaps::of(equations, before, changes.still).gap;
+    // the velocities of the start as joints and gaps at the end have them: what is left are the changes by forces
+    equations.phi_dot(At { t, q, v: before.v }, changes.rows);
+    equations.projection(t, q, changes.rows, changes.q);
+    vectors::copy(changes.v, before.v);
+    vectors::zip_map(changes.v, changes.q, |v, change| v - change);
+    let rate_before = Gaps::of(equations, At { t, q, v: changes.v }, changes.still).rate;
+    let ends = Ends { gap: [gap_before, now.gap], rate: [rate_before, now.rate] };
+    let restitutions = restitutions(equations);
+    let answered = Contacts::at(equations, (t, q), |contacts| {
+        let answer = Striking::new(&contacts, h, &ends, &restitutions, pushed).answer(closed)?;
+        let shifts = contacts.solve(answer.held, &answer.gap);
+        vectors::fill(changes.q, T::ZERO);
+        vectors::fill(changes.v, T::ZERO);
+        contacts.add(&zip(&answer.moved, &shifts, |moved, shift| moved + shift), changes.q);
+        contacts.add(&answer.impulses, changes.v);
+        Some(answer)
+    });
+    let answer = answered.flatten().ok_or_else(|| impact(equations, t, closed))?;
+    vectors::zip_map(q, changes.q, |q, change| q + change);
+    vectors::zip_map(v, changes.v, |v, change| v + change);
+    // a force that presses for a step is no impact
+    let noted = if answer.is_impact { answer.impulses } else { [T::ZERO; MOST_STOPS] };
+    note(equations, answer.held, &noted, inputs);
+    Ok(true)
+}
+
+/// Gaps and their rates at the start and at the end of a step.
+struct Ends<T> {
+    gap: [Each<T>; 2],
+    rate: [Each<T>; 2],
+}
+
+/// Stops at the end of a step.
+struct Striking<'a, T> {
+    contacts: &'a Contacts<'a, T>,
+    restitutions: &'a Each<T>,
+    ends: &'a Ends<T>,
+    /// ġ − ġ₀
+    change: Each<T>,
+    /// The rest of the step behind the closing of a gap: 1 − s.
+    rest: Each<T>,
+    /// What an impulse moves positions by: (1 − s) h, and nothing where it is the second half of a push.
+    shift: Each<T>,
+}
+
+/// The answer of stops to a step.
+struct Answer<T> {
+    /// The stops that are rested on.
+    held: u32,
+    /// Λ
+    impulses: Each<T>,
+    /// (1 − s) h Λ
+    moved: Each<T>,
+    /// The gaps with it.
+    gap: Each<T>,
+    /// True if one has closed faster than forces press.
+    is_impact: bool,
+}
+
+impl<'a, T: Real> Striking<'a, T> {
+    fn new(
+        contacts: &'a Contacts<'a, T>,
+        h: T,
+        ends: &'a Ends<T>,
+        restitutions: &'a Each<T>,
+        pushed: u32,
+    ) -> Self {
+        let one = T::from_f64(1.0);
+        let [before, now] = &ends.gap;
+        let rest = zip(before, now, |before, now| {
+            let is_open = before.to_f64() > 0.0;
+            let part = if is_open && now < before { before / (before - now) } else { T::ZERO };
+            if part < one { one - part } else { T::ZERO }
+        });
+        let shift =
+            core::array::from_fn(|stop| if has(pushed, stop) { T::ZERO } else { of(&rest, stop) * h });
+        let [before, now] = &ends.rate;
+        let change = zip(now, before, |now, before| now - before);
+        Self { contacts, restitutions, ends, change, rest, shift }
+    }
+
+    /// The impulses at the stops that are closed, or that impulses close, one impact after the other; nothing where there
+    /// are none.
+    fn answer(&self, mut closed: u32) -> Option<Answer<T>> {
+        let Self { contacts, ends, shift, .. } = self;
+        // written so that a NaN is no growth
+        let has_growth = contacts.growth() < growth_limit();
+        if !has_growth {
+            return None;
+        }
+        let (mut impulses, mut held, mut is_impact) = ([T::ZERO; MOST_STOPS], 0, false);
+        for turn in 0..=IN_SEQUENCE {
+            let moved = zip(&impulses, shift, |impulse, shift| impulse * shift);
+            let gap = zip(&ends.gap[1], &contacts.rates(&moved), |gap, change| gap + change);
+            let rate = zip(&ends.rate[1], &contacts.rates(&impulses), |rate, change| rate + change);
+            closed |= those(contacts.stops(), |stop| number(&gap, stop) <= 0.0);
+            let still = self.still(&impulses);
+            let closing =
+                those(MOST_STOPS, |stop| has(closed, stop) && number(&rate, stop) <= number(&still, stop));
+            let is_hit = |stop: usize| has(closing, stop) && number(&rate, stop) < -number(&still, stop);
+            if turn == IN_SEQUENCE || !(0..MOST_STOPS).any(is_hit) {
+                let held =
+                    those(MOST_STOPS, |stop| has(closing & held, stop) && number(&impulses, stop) > 0.0);
+                return Some(Answer { held, impulses, moved, gap, is_impact });
+            }
+            let taken = taken(contacts, closed, &self.change)?;
+            let approach = if turn == 0 { self.approach() } else { rate };
+            let thrown = self.rebounds(&approach);
+            let is_last = turn + 1 == IN_SEQUENCE;
+            held = those(MOST_STOPS, |stop| {
+                has(closed, stop) && (is_last || number(&thrown, stop) <= number(&taken, stop))
+            });
+            is_impact = is_impact
+                || (0..MOST_STOPS)
+                    .any(|stop| is_hit(stop) && -number(&approach, stop) > number(&taken, stop));
+            let short: Each<T> = core::array::from_fn(|stop| {
+                let later = if turn == 0 { of(&self.rest, stop) * of(&self.change, stop) } else { T::ZERO };
+                let target = if has(held, stop) { T::ZERO } else { of(&thrown, stop) + later };
+                of(&rate, stop) - if target.to_f64() > 0.0 { target } else { T::ZERO }
+            });
+            let (_, more) = contacts.complementary(closing, &short)?;
+            impulses = zip(&impulses, &more, |impulse, more| impulse + more);
+        }
+        None
+    }
+
+    /// The rates with which gaps close, ġ_s.
+    fn approach(&self) -> Each<T> {
+        let behind = zip(&self.rest, &self.change, |rest, change| rest * change);
+        zip(&self.ends.rate[1], &behind, |rate, behind| rate - behind)
+    }
+
+    /// The rates with which gaps open that close with others: −e ġ.
+    fn rebounds(&self, rates: &Each<T>) -> Each<T> {
+        rebounds(self.restitutions, rates)
+    }
+
+    /// The rates below which gaps do not move.
+    fn still(&self, impulses: &Each<T>) -> Each<f64> {
+        let [before, now] = &self.ends.rate;
+        core::array::from_fn(|of| {
+            let mut size = number(before, of).abs() + number(now, of).abs();
+            for by in 0..self.contacts.stops() {
+                size += (self.contacts.mobility(of, by).to_f64() * number(impulses, by)).abs();
+            }
+            ROUNDING * size
+        })
+    }
+}
+
+/// Sets the memories of the stops that a start rests on, with accelerations that are given without them.
+///
+/// # Errors
+/// [`Error::Behind`], [`Error::Impact`].
+pub fn begin<T: Real>(
+    equations: &dyn Equations<T>,
+    h: T,
+    at: At<'_, T>,
+    acceleration: &[T],
+    inputs: &mut [T],
+) -> Result<(), Error> {
+    let info = equations.info();
+    let (count, gaps) = (info.stops.len(), Gaps::of(equations, at, acceleration));
+    let size = BEHIND * (LEAST_SIZE + vectors::largest(info.of_bodies(at.q)).1.to_f64());
+    let thrown = rebounds(&restitutions(equations), &gaps.rate);
+    let found = Contacts::at(equations, (at.t, at.q), |contacts| {
+        let allowed = |stop: usize| size * contacts.slope(stop);
+        if let Some(stop) = (0..count).find(|&stop| number(&gaps.gap, stop) < -allowed(stop)) {
+            let name = info.stops.get(stop).map_or("", |stop| stop.name);
+            return Err(Error::Behind { t: at.t.to_f64(), stop: name, gap: number(&gaps.gap, stop) });
+        }
+        let closed = those(count, |stop| number(&gaps.gap, stop) <= allowed(stop));
+        let taken = taken(&contacts, closed, &gaps.acceleration.map(|acceleration| h * acceleration));
+        let taken = taken.ok_or_else(|| impact(equations, at.t, closed))?;
+        let settled = those(count, |stop| {
+            let taken = number(&taken, stop);
+            has(closed, stop) && number(&gaps.rate, stop) <= taken && number(&thrown, stop) <= taken
+        });
+        let pressed = contacts.complementary(settled, &gaps.acceleration);
+        let (_, forces) = pressed.ok_or_else(|| impact(equations, at.t, settled))?;
+        Ok(those(count, |stop| number(&forces, stop) > 0.0))
+    });
+    note(equations, found.transpose()?.unwrap_or(0), &[T::ZERO; MOST_STOPS], inputs);
+    Ok(())
+}
+
+/// The rates that forces at the stops of a set take from gaps in a step, in which gaps change their rates without them.
+fn taken<T: Real>(contacts: &Contacts<'_, T>, closed: u32, change: &Each<T>) -> Option<Each<T>> {
+    let (_, impulses) = contacts.complementary(closed, change)?;
+    Some(core::array::from_fn(|stop| contacts.mobility(stop, stop) * of(&impulses, stop)))
+}
+
+/// e of every stop.
+fn restitutions<T: Real>(equations: &dyn Equations<T>) -> Each<T> {
+    let mut laws = [T::ZERO; 2 * MOST_STOPS];
+    if let Some(laws) = laws.get_mut(..2 * equations.info().stops.len()) {
+        equations.stop_laws(laws);
+    }
+    core::array::from_fn(|stop| laws.get(2 * stop).copied().unwrap_or_default())
+}
+
+/// The rates with which gaps open that have closed with others.
+fn rebounds<T: Real>(restitutions: &Each<T>, rates: &Each<T>) -> Each<T> {
+    zip(
+        restitutions,
+        rates,
+        |restitution, rate| if rate.to_f64() < 0.0 { -(restitution * rate) } else { T::ZERO },
+    )
+}
+
+/// Sets the memories of all stops: those that are rested on, and what impulses add up to.
+fn note<T: Real>(equations: &dyn Equations<T>, held: u32, impulses: &Each<T>, inputs: &mut [T]) {
+    for (at, stop) in equations.info().stops.iter().enumerate() {
+        if let Some(memory) = inputs.get_mut(stop.memory) {
+            *memory = T::from_f64(if has(held, at) { 1.0 } else { 0.0 });
+        }
+        if let Some(memory) = inputs.get_mut(stop.memory + 1) {
+            *memory = *memory + of(impulses, at);
+        }
+    }
+}
+
+fn impact<T: Real>(equations: &dyn Equations<T>, t: T, closed: u32) -> Error {
+    let stop = equations.info().stops.get(closed.trailing_zeros() as usize);
+    Error::Impact { t: t.to_f64(), stop: stop.map_or("", |stop| stop.name) }
+}
+
+fn of<T: Real>(each: &Each<T>, stop: usize) -> T {
+    each.get(stop).copied().unwrap_or_default()
+}
+
+fn zip<T: Real>(x: &Each<T>, y: &Each<T>, what: impl Fn(T, T) -> T) -> Each<T> {
+    core::array::from_fn(|stop| what(of(x, stop), of(y, stop)))
+}

@@ -1,0 +1,99 @@
+//! The forces at stops that are rested on.
+
+use crate::Real;
+use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_STOPS, bit, those};
+use crate::equations::{At, Equations};
+
+/// The stops that are rested on.
+pub(crate) fn held<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> u32 {
+    let stops = equations.info().stops;
+    let memory = |stop: usize| inputs.get(stops.get(stop)?.memory).map(|held| held.to_f64());
+    those(stops.len(), |stop| memory(stop).is_some_and(|held| held > 0.5))
+}
+
+/// Adds to accelerations what the stops do that are rested on, and to multipliers, if they are given; the pivot growth
+/// of the responses.
+pub fn press<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &[T],
+    acceleration: &mut [T],
+    multipliers: Option<&mut [T]>,
+) -> T {
+    pressed(equations, at, inputs, acceleration, multipliers).0
+}
+
+/// The same with the forces λ at the stops.
+pub(crate) fn pressed<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &[T],
+    acceleration: &mut [T],
+    multipliers: Option<&mut [T]>,
+) -> (T, Each<T>) {
+    let none = (T::default(), [T::default(); MOST_STOPS]);
+    let held = held(equations, inputs);
+    if held == 0 {
+        return none;
+    }
+    let gaps = Gaps::of(equations, at, acceleration);
+    let found = Contacts::at(equations, (at.t, at.q), |contacts| {
+        let forces = contacts.solve(held, &gaps.acceleration);
+        contacts.add(&forces, acceleration);
+        if let Some(multipliers) = multipliers {
+            for (stop, &force) in forces.iter().enumerate().take(contacts.stops()) {
+                for (to, y) in multipliers.iter_mut().zip(contacts.reactions(stop)) {
+                    *to = *to + force * *y;
+                }
+            }
+        }
+        (contacts.growth(), forces)
+    });
+    found.unwrap_or(none)
+}
+
+/// Adds to velocities, accelerations or positions the responses to x with W x + b = 0 at some stops, and writes x; the
+/// pivot growth of the responses.
+pub fn lean<T: Real>(
+    equations: &dyn Equations<T>,
+    at: (T, &[T]),
+    stops: &[usize],
+    b: &[T],
+    (to, x): (&mut [T], &mut [T]),
+) -> T {
+    let (mut set, mut all) = (0, [T::default(); MOST_STOPS]);
+    for (stop, b) in stops.iter().zip(b) {
+        set |= bit(*stop);
+        if let Some(to) = all.get_mut(*stop) {
+            *to = *b;
+        }
+    }
+    let growth = Contacts::at(equations, at, |contacts| {
+        let solution = contacts.solve(set, &all);
+        contacts.add(&solution, to);
+        for (x, stop) in x.iter_mut().zip(stops) {
+            *x = solution.get(*stop).copied().unwrap_or_default();
+        }
+        contacts.growth()
+    });
+    growth.unwrap_or_default()
+}
+
+/// True if no stop of some depends on the others and on the constraints at a position.
+pub fn are_independent<T: Real>(equations: &dyn Equations<T>, at: (T, &[T]), stops: &[usize]) -> bool {
+    let is_independent = |count: usize| {
+        let (set, last) = (stops.get(..count)?, *stops.get(count)?);
+        Contacts::at(equations, at, |contacts| {
+            let column = core::array::from_fn(|of| {
+                if of < contacts.stops() { -contacts.mobility(of, last) } else { T::default() }
+            });
+            let set = set.iter().fold(0, |set, stop| set | bit(*stop));
+            let shares = contacts.solve(set, &column);
+            // what is left of W without the others
+            let own = contacts.mobility(last, last).to_f64();
+            let left = own - contacts.rates(&shares).get(last).map_or(0.0, |rate| rate.to_f64());
+            left > DEPENDENT * own
+        })
+    };
+    (0..stops.len()).all(|count| is_independent(count).unwrap_or(false))
+}

@@ -1,0 +1,34 @@
+//! Random mechanisms between random stops, as texts.
+
+use crate::random::Random;
+
+/// A random mechanism: masses on springs, hung in joints of their own, between stops, some of which say the same or are
+/// reached at once. All start at 0, before every stop or at it.
+pub fn random(number: u64) -> (String, usize) {
+    let mut random = Random::new(number);
+    let mut whole = |from: i64, to: i64| from + random.below((to - from + 1) as usize) as i64;
+    let (bodies, stops) = (whole(1, 4), whole(1, 4));
+    let names: Vec<String> = (1..=bodies).map(|body| format!("y{body}")).collect();
+    let mut text = String::from("Random {\n    gravity = (0, -9.81) [m/s^2];\n");
+    let is_tied = bodies > 2 && whole(0, 1) == 1;
+    text += &format!("    dof = {};\n", bodies - i64::from(is_tied));
+    for name in &names {
+        let (mass, stiffness) = (whole(1, 5), whole(1, 4) * 20);
+        text += &format!("    body b{name} (y = {name}) {{ mass = {mass} [kg]; }}\n");
+        text += &format!("    potential s{name} = {stiffness} [N/m]*({name} - 1 [m])^2/2;\n");
+    }
+    if is_tied {
+        // a joint that is not linear
+        text += "    constraint tie: y1^2 + 2*y1*[m] = y2*[m];\n".replace("[m]", "(1 [m])").as_str();
+    }
+    for stop in 0..stops {
+        let mut factors: Vec<i64> = names.iter().map(|_| whole(-2, 2)).collect();
+        factors[whole(0, bodies - 1) as usize] = 1;
+        let sum: Vec<String> =
+            factors.iter().zip(&names).map(|(factor, name)| format!("{factor}*{name}")).collect();
+        let (gap, e) = (whole(0, 2), whole(0, 4));
+        text += &format!("    stop s{stop}: {} >= -{gap} [m] {{ restitution = {e}/4; }}\n", sum.join(" + "));
+        text += &format!("    output g{stop} [m] = {} + {gap} [m];\n", sum.join(" + "));
+    }
+    (text + "}\n", stops as usize)
+}
