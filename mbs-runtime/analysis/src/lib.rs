@@ -43,6 +43,7 @@ pub mod prescribed {}
 mod rates;
 mod response;
 mod rest;
+mod resting;
 mod sensitivity;
 mod signal;
 mod singular;

@@ -9,7 +9,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::chart::Chart;
 use crate::derivative::{Derivatives, Direction, Values, size_of_state};
 use crate::family::{Family, Varied};
-use crate::stops::refuse_contact;
+use crate::resting::Resting;
+use crate::stops::rested_on;
 use crate::{Error, OperatingPoint, Signal, Variable};
 
 /// A rate in 1/s that is slower than any mechanism.
@@ -160,6 +161,25 @@ pub fn linearize(
     point: &OperatingPoint,
     ports: &Ports<'_>,
 ) -> Result<Linearization, Error> {
+    point.check(mechanism)?;
+    match rested_on(mechanism, point)?[..] {
+        [] if mechanism.info().stops.is_empty() || !ports.parameters.is_empty() => {
+            on_its_rows(mechanism, point, ports)
+        }
+        [stop, ..] if !ports.parameters.is_empty() => {
+            let what = "a linear system by parameters about a closed stop";
+            Err(mbs_runtime::Error::Stops { what, stop: mechanism.info().stops[stop].name }.into())
+        }
+        ref stops => on_its_rows(&Resting::new(mechanism, stops), point, ports),
+    }
+}
+
+/// The same about a point at which no stop is closed, but for those among the rows.
+pub(crate) fn on_its_rows(
+    mechanism: &dyn Described<f64>,
+    point: &OperatingPoint,
+    ports: &Ports<'_>,
+) -> Result<Linearization, Error> {
     let info = mechanism.info();
     Error::refuse_rates(info, "a linearization")?;
     if info.dof <= 0 && info.lines == info.coordinates.len() {
@@ -168,8 +188,6 @@ pub fn linearize(
     let mut inputs = Signal::inputs(info, ports.inputs.as_deref())?;
     inputs.extend(Signal::parameters(info, &ports.parameters)?);
     let outputs = Signal::outputs(info, ports.outputs.as_deref())?;
-    point.check(mechanism)?;
-    refuse_contact(mechanism, (point.t, &point.q), "a linear system about a closed stop")?;
     let chart = Chart::new(mechanism, point, ports.states.as_deref())?;
     let mut parameters = vec![0.0; info.parameters.len()];
     mechanism.parameters(&mut parameters);

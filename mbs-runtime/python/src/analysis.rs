@@ -60,6 +60,11 @@ impl Mechanism {
         shown_all.set_item("states", shown(states, values, Unit::of))?;
         shown_all.set_item("outputs", shown(info.outputs, &outputs, Unit::of))?;
         shown_all.set_item("multipliers", reactions)?;
+        let rests = rest.rests.iter().filter_map(|(at, force)| Some((info.stops.get(*at)?, *force)));
+        let rests: Values = rests
+            .map(|(stop, force)| (stop.name, force, Unit::of_multiplier(stop.dimension).name().to_owned()))
+            .collect();
+        shown_all.set_item("rests", rests)?;
         shown_all.set_item("potential_energy", potential_energy)?;
         shown_all.set_item("stability", stability)?;
         shown_all.set_item("directions", directions)?;

@@ -15,9 +15,9 @@ use self::newton::newton;
 use self::relaxation::relax;
 use self::stiffness::Stiffness;
 use crate::Error;
-use crate::linearization::{Ports, linearize};
+use crate::linearization::{Ports, on_its_rows};
 use crate::point::OperatingPoint;
-use crate::stops::refuse_behind;
+use crate::stops::{self, complementary};
 use crate::tangent::Rest;
 
 /// The method by which an equilibrium is looked for.
@@ -102,8 +102,11 @@ pub struct Equilibrium {
     pub lines: usize,
     /// Multipliers: the reactions that hold it.
     pub multipliers: Vec<f64>,
-    /// The inputs with which it was found.
+    /// The inputs with which it was found, with the memories of stops as they are there.
     pub inputs: Vec<f64>,
+    /// The stops that it rests on, by their places in [`Info::stops`](mbs_runtime::Info::stops), and the forces with which
+    /// they push: along a gap in m in N.
+    pub rests: Vec<(usize, f64)>,
     /// κ of K_r x = κ M_r x, ascending, in 1/s²: the squares of the natural frequencies of an
     /// undamped mechanism, negative for directions in which it falls away.
     pub stiffness: Vec<f64>,
@@ -222,6 +225,10 @@ impl From<&Equilibrium> for OperatingPoint {
 /// unstable ones, from which it is pushed if it begins there. The equation of each step is solved, which
 /// leads along the curved valley of a stiff spring.
 ///
+/// *Stops* that a mechanism rests on push, and no gap is negative: the search is made on the constraints and on the gaps of
+/// sets of stops, first without any, until both hold. Where several sets have an equilibrium, it is that of the set to which
+/// the search is led, or of the smallest one.
+///
 /// A mechanism without degrees of freedom rests where it is assembled: what is found are its reactions.
 ///
 /// Own states are unknowns as positions are: at rest ż = 0. Stiffnesses are those of the mechanism while they are
@@ -274,7 +281,31 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let inputs = search.inputs.clone().unwrap_or(defaults);
     check("positions", &from, info.coordinates.len())?;
     check("inputs", &inputs, info.inputs.len())?;
-    let mut start = DVector::from_vec(from);
+    if info.stops.is_empty() {
+        return on_rows(mechanism, search, DVector::from_vec(from), inputs);
+    }
+    let (stops, mut found) = complementary(mechanism, search.t, |mechanism| {
+        let found = on_rows(mechanism, search, DVector::from_column_slice(&from), inputs.clone())?;
+        let (q, multipliers) = (found.q.clone(), found.multipliers.clone());
+        Ok(stops::Found { result: found, q, multipliers })
+    })?;
+    let forces = found.multipliers.split_off(info.constraints.len());
+    found.rests = stops.into_iter().zip(forces.into_iter().map(|multiplier| -multiplier)).collect();
+    for (at, stop) in info.stops.iter().enumerate() {
+        let is_rested_on = found.rests.iter().any(|(stop, _)| *stop == at);
+        found.inputs[stop.memory] = f64::from(u8::from(is_rested_on));
+    }
+    Ok(found)
+}
+
+/// The same for a mechanism without stops but for those among its rows.
+fn on_rows(
+    mechanism: &dyn Described<f64>,
+    search: &Search,
+    mut start: DVector<f64>,
+    inputs: Vec<f64>,
+) -> Result<Equilibrium, Error> {
+    let info = mechanism.info();
     let rest = Rest::new(mechanism, search.t, &inputs, start.as_slice());
     rest.assemble(&mut start)?;
     let is_held = info.dof == 0 && info.lines == info.coordinates.len();
@@ -299,8 +330,8 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
         rates: Vec::new(),
         iterations,
         inputs,
+        rests: Vec::new(),
     };
-    refuse_behind(mechanism, found.t, &found.q)?;
     if info.lines < info.coordinates.len() {
         found.rates = rates(mechanism, &found).unwrap_or_default();
     }
@@ -309,7 +340,7 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
 
 /// λ of all modes of the linear system about an equilibrium.
 fn rates(mechanism: &dyn Described<f64>, rest: &Equilibrium) -> Result<Vec<Complex<f64>>, Error> {
-    let linear = linearize(mechanism, &OperatingPoint::from(rest), &Ports::default())?;
+    let linear = on_its_rows(mechanism, &OperatingPoint::from(rest), &Ports::default())?;
     Ok(linear.modes()?.into_iter().map(|mode| mode.eigenvalue).collect())
 }
 

@@ -54,6 +54,7 @@ class AtRest(TypedDict):
     states: Values
     outputs: Values
     multipliers: Values
+    rests: Values
     potential_energy: float
     stability: str
     directions: int

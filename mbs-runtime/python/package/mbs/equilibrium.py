@@ -29,6 +29,8 @@ class Equilibrium:
         """What is measured there."""
         self.multipliers: Mapping[str, float] = {name: value for name, value, _ in found["multipliers"]}
         """The reactions that hold it, by constraint."""
+        self.rests: Mapping[str, float] = {name: force for name, force, _ in found["rests"]}
+        """The stops that it rests on, and the forces with which they push."""
         named = [*found["coordinates"], *found["states"], *found["outputs"]]
         rows = [(f"lambda({name})", unit) for name, _, unit in found["multipliers"]]
         self.units: Mapping[str, str] = {**{name: unit for name, _, unit in named}, **dict(rows)}

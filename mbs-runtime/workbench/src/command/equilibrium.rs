@@ -93,6 +93,8 @@ struct Found<'a> {
     states: Vec<(&'static str, f64, Unit)>,
     outputs: Vec<(&'static str, f64, Unit)>,
     reactions: Vec<(&'static str, f64, Unit)>,
+    /// The forces of stops.
+    rests: Vec<(&'static str, f64, Unit)>,
     potential_energy: f64,
 }
 
@@ -115,6 +117,12 @@ impl<'a> Found<'a> {
             states: coordinates.skip(info.lines).map(|(z, x)| (z.name, *x, Unit::of(z))).collect(),
             outputs: info.outputs.iter().zip(&outputs).map(|(o, x)| (o.name, *x, Unit::of(o))).collect(),
             reactions: reactions.map(|(row, x)| (row.name, *x, Unit::of_multiplier(row.dimension))).collect(),
+            rests: rest
+                .rests
+                .iter()
+                .map(|(at, force)| (&info.stops[*at], *force))
+                .map(|(stop, force)| (stop.name, force, Unit::of_multiplier(stop.dimension)))
+                .collect(),
             potential_energy: run.energies(at)[1],
         }
     }
@@ -155,6 +163,9 @@ impl<'a> Found<'a> {
             let value = significant(unit.shown(chopped(*value, &self.reactions)), 6);
             table.row([&format!("lambda({name})"), &value, unit.name()]);
         }
+        for (name, force, unit) in &self.rests {
+            table.row([&format!("rests on {name}"), &significant(unit.shown(*force), 6), unit.name()]);
+        }
         table.row(["potential energy", &significant(self.potential_energy, 6), "J"]);
         for (at, stiffness) in self.rest.stiffness.iter().enumerate() {
             table.row([&format!("stiffness {} over mass", at + 1), &significant(*stiffness, 6), "1/s^2"]);
@@ -176,6 +187,7 @@ impl<'a> Found<'a> {
             "states": of(&self.states),
             "outputs": of(&self.outputs),
             "multipliers": of(&self.reactions),
+            "rests": of(&self.rests),
             "potential_energy_J": number(self.potential_energy),
             "stiffness_1_s2": self.rest.stiffness.iter().map(|x| number(*x)).collect::<Vec<_>>(),
             "iterations": self.rest.iterations,

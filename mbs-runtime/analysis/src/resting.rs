@@ -1,0 +1,282 @@
+//! A mechanism that rests on some of its stops: their gaps are constraints of it.
+//!
+//! The memories of its stops are those of the set, whatever a run has left in them. What asks for equilibria and small motions sees one mechanism more, with a row g = 0 for each stop behind the declared
+//! ones and as many degrees of freedom less. The rows are not eliminated: responses to unit impulses along the gaps add
+//! them to what the mechanism solves without them.
+
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials, lean};
+use mbs_runtime::{Constraint, Derivation, Error, Gains, Info, Real, Sketch};
+
+/// A mechanism on some stops.
+pub struct Resting<'a, T: Real> {
+    free: &'a dyn Described<T>,
+    info: Info,
+    stops: Vec<usize>,
+}
+
+impl<'a, T: Real> Resting<'a, T> {
+    /// A mechanism on stops whose gaps are independent of each other and of the constraints.
+    pub fn new(free: &'a dyn Described<T>, stops: &[usize]) -> Self {
+        let mut info = *free.info();
+        info.constraints = rows(&info, stops);
+        info.dof -= i32::try_from(stops.len()).unwrap_or(0);
+        Self { free, info, stops: stops.to_vec() }
+    }
+
+    /// The number of declared constraints.
+    fn declared(&self) -> usize {
+        self.info.constraints.len() - self.stops.len()
+    }
+
+    /// Declared rows, and those of stops.
+    fn split<'b>(&self, rows: &'b [T]) -> (&'b [T], &'b [T]) {
+        rows.split_at(self.declared().min(rows.len()))
+    }
+
+    fn split_mut<'b>(&self, rows: &'b mut [T]) -> (&'b mut [T], &'b mut [T]) {
+        rows.split_at_mut(self.declared().min(rows.len()))
+    }
+
+    /// Gap, rate and second derivative of the stops that are rested on.
+    fn gaps(&self, at: At<'_, T>, acceleration: &[T]) -> Vec<[T; 3]> {
+        let mut all = vec![T::ZERO; 3 * self.info.stops.len()];
+        self.free.gaps(at, acceleration, &mut all);
+        let of = |stop: &usize| [all[3 * stop], all[3 * stop + 1], all[3 * stop + 2]];
+        self.stops.iter().map(of).collect()
+    }
+
+    /// Adds to a vector that has no part in the gaps' rows, but for `short` of each, what leads there; the forces at the
+    /// stops.
+    fn lead(&self, t: T, q: &[T], short: &[T], to: &mut [T]) -> (T, Vec<T>) {
+        let mut forces = vec![T::ZERO; self.stops.len()];
+        let growth = lean(self.free, (t, q), &self.stops, short, (to, &mut forces));
+        (growth, forces)
+    }
+
+    /// Adds to a correction that solves the declared rows what solves those of stops.
+    fn correct(&self, t: T, q: &[T], residual: &[T], to: &mut [T]) -> T {
+        let still = vec![T::ZERO; q.len()];
+        let rates = |v: &[T]| self.gaps(At { t, q, v }, &still);
+        let moved = rates(to).into_iter().zip(rates(&still));
+        let short: Vec<T> =
+            moved.zip(residual).map(|((with, without), asked)| with[1] - without[1] - *asked).collect();
+        self.lead(t, q, &short, to).0
+    }
+
+    /// The inputs with the memories of the stops that are rested on.
+    fn resting_inputs(&self, inputs: &[T]) -> Vec<T> {
+        let mut inputs = inputs.to_vec();
+        for (at, stop) in self.info.stops.iter().enumerate() {
+            inputs[stop.memory] = T::from_f64(f64::from(u8::from(self.stops.contains(&at))));
+        }
+        inputs
+    }
+
+    /// q̈ with γ + `feedback` below, and the forces at the stops.
+    fn solved(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], a: &mut [T]) -> (T, Vec<T>) {
+        let (declared, of_stops) = self.split(feedback);
+        let growth = self.free.accelerations(at, inputs, declared, a);
+        let gaps = self.gaps(at, a).into_iter().zip(of_stops);
+        let short: Vec<T> = gaps.map(|(gap, feedback)| gap[2] - *feedback).collect();
+        let (more, forces) = self.lead(at.t, at.q, &short, a);
+        (growth + more, forces)
+    }
+}
+
+/// The constraints of a mechanism on some stops. They are kept as long as the program, once for each set of stops, as are
+/// the texts of mechanisms.
+fn rows(info: &Info, stops: &[usize]) -> &'static [Constraint] {
+    type Known = BTreeMap<(usize, Vec<usize>), &'static [Constraint]>;
+    static KNOWN: OnceLock<Mutex<Known>> = OnceLock::new();
+    let known = KNOWN.get_or_init(Mutex::default);
+    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+    let key = (info.stops.as_ptr().addr(), stops.to_vec());
+    known.entry(key).or_insert_with(|| {
+        let of_stops = stops.iter().filter_map(|stop| info.stops.get(*stop)).map(|stop| Constraint {
+            name: stop.name,
+            doc: stop.doc,
+            formula: stop.formula,
+            is_drive: false,
+            is_rate: false,
+            dimension: stop.dimension,
+        });
+        Vec::leak(info.constraints.iter().copied().chain(of_stops).collect())
+    })
+}
+
+impl<T: Real> Equations<T> for Resting<'_, T> {
+    fn info(&self) -> &Info {
+        &self.info
+    }
+
+    fn phi(&self, t: T, q: &[T], phi: &mut [T]) {
+        let (declared, of_stops) = self.split_mut(phi);
+        self.free.phi(t, q, declared);
+        let still = vec![T::ZERO; q.len()];
+        let gaps = self.gaps(At { t, q, v: &still }, &still);
+        of_stops.iter_mut().zip(gaps).for_each(|(phi, gap)| *phi = gap[0]);
+    }
+
+    fn phi_dot(&self, at: At<'_, T>, phi_dot: &mut [T]) {
+        let (declared, of_stops) = self.split_mut(phi_dot);
+        self.free.phi_dot(at, declared);
+        let gaps = self.gaps(at, &vec![T::ZERO; at.q.len()]);
+        of_stops.iter_mut().zip(gaps).for_each(|(phi_dot, gap)| *phi_dot = gap[1]);
+    }
+
+    fn complete(&self, states: At<'_, T>, q: &mut [T], v: &mut [T]) {
+        self.free.complete(states, q, v);
+    }
+
+    fn stabilized(
+        &self,
+        states: At<'_, T>,
+        inputs: &[T],
+        gains: &Gains<T>,
+        a: &mut [T],
+        feedback: &mut [T],
+    ) -> T {
+        let mut rows = [(); 2].map(|()| vec![T::ZERO; feedback.len()]);
+        let [phi, phi_dot] = &mut rows;
+        self.phi(states.t, states.q, phi);
+        self.phi_dot(states, phi_dot);
+        for (feedback, (phi, phi_dot)) in feedback.iter_mut().zip(phi.iter().zip(phi_dot.iter())) {
+            *feedback = gains.minus_two_alpha * *phi_dot + gains.minus_beta_squared * *phi;
+        }
+        self.accelerations(states, inputs, feedback, a)
+    }
+
+    // with stops all coordinates are integrated
+    fn constrained(&self, states: At<'_, T>, inputs: &[T], feedback: &[T], a: &mut [T]) -> T {
+        self.accelerations(states, inputs, feedback, a)
+    }
+
+    fn implicit(&self, states: At<'_, T>, inputs: &[T], shift: T, predicted: &[T], a: &mut [T]) -> T {
+        self.free.implicit(states, inputs, shift, predicted, a)
+    }
+
+    fn accelerations(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], a: &mut [T]) -> T {
+        self.solved(at, &self.resting_inputs(inputs), feedback, a).0
+    }
+
+    fn position_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T {
+        let (declared, of_stops) = self.split(residual);
+        self.free.position_correction(t, q, declared, correction) + self.correct(t, q, of_stops, correction)
+    }
+
+    fn velocity_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T {
+        let (declared, of_stops) = self.split(residual);
+        self.free.velocity_correction(t, q, declared, correction) + self.correct(t, q, of_stops, correction)
+    }
+
+    fn projection(&self, t: T, q: &[T], violation: &[T], correction: &mut [T]) -> T {
+        let (declared, of_stops) = self.split(violation);
+        self.free.projection(t, q, declared, correction) + self.correct(t, q, of_stops, correction)
+    }
+
+    fn worst_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)> {
+        self.free.worst_pivot(t, q)
+    }
+
+    fn worst_start_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)> {
+        self.free.worst_start_pivot(t, q)
+    }
+
+    fn gaps(&self, at: At<'_, T>, acceleration: &[T], gaps: &mut [T]) {
+        self.free.gaps(at, acceleration, gaps);
+    }
+
+    fn clock(&self, clock: usize) -> [T; 2] {
+        self.free.clock(clock)
+    }
+
+    fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize) {
+        self.free.sample(at, inputs, clock);
+    }
+
+    fn kinetic_energy(&self, at: At<'_, T>) -> T {
+        self.free.kinetic_energy(at)
+    }
+}
+
+// but for derivatives, which are those of numbers, the same for both scalars
+macro_rules! described {
+    ($T:ty, $it:ident, $differentiable:expr) => {
+        impl Described<$T> for Resting<'_, $T> {
+            fn reactions(
+                &self,
+                at: At<'_, $T>,
+                inputs: &[$T],
+                acceleration: &mut [$T],
+                multipliers: &mut [$T],
+            ) -> $T {
+                let inputs = self.resting_inputs(inputs);
+                let none = vec![<$T>::ZERO; self.info.constraints.len()];
+                let (_, forces) = self.solved(at, &inputs, &none, acceleration);
+                let (declared, of_stops) = self.split_mut(multipliers);
+                // M q̈ + Φ_qᵀ λ = Q, where stops push
+                of_stops.iter_mut().zip(forces).for_each(|(multiplier, force)| *multiplier = -force);
+                self.free.reactions(at, &inputs, acceleration, declared)
+            }
+
+            fn outputs(
+                &self,
+                at: At<'_, $T>,
+                inputs: &[$T],
+                [acceleration, multipliers]: [&[$T]; 2],
+                outputs: &mut [$T],
+            ) {
+                let given = [acceleration, self.split(multipliers).0];
+                self.free.outputs(at, &self.resting_inputs(inputs), given, outputs);
+            }
+
+            fn events(&self, at: At<'_, $T>, inputs: &[$T], values: &mut [$T]) {
+                self.free.events(at, &self.resting_inputs(inputs), values);
+            }
+
+            fn potential_energy(&self, at: At<'_, $T>) -> $T {
+                self.free.potential_energy(at)
+            }
+
+            fn points(&self, t: $T, q: &[$T], points: &mut [$T]) {
+                self.free.points(t, q, points);
+            }
+
+            fn parameters(&self, parameters: &mut [$T]) {
+                self.free.parameters(parameters);
+            }
+
+            fn derivation(&self) -> &Derivation {
+                self.free.derivation()
+            }
+
+            fn sketch(&self) -> &Sketch {
+                self.free.sketch()
+            }
+
+            fn differentiable(&self) -> Option<&dyn Differentiable> {
+                let $it = self;
+                $differentiable
+            }
+        }
+    };
+}
+
+described!(f64, it, it.free.differentiable().map(|_| it as &dyn Differentiable));
+described!(Partials, _it, None);
+
+impl Differentiable for Resting<'_, f64> {
+    fn with_partials(
+        &self,
+        parameters: &[Partials],
+        what: &mut dyn FnMut(&dyn Described<Partials>),
+    ) -> Result<(), Error> {
+        match self.free.differentiable() {
+            Some(free) => free.with_partials(parameters, &mut |free| what(&Resting::new(free, &self.stops))),
+            None => Ok(()),
+        }
+    }
+}
