@@ -37,6 +37,7 @@
 //! | [`CartPole`] | 2 | a sampled controller with an observer |
 //! | [`PathFollower`] | 2 | two clocks, one controller within the other |
 //! | [`ElasticCrank`] | 1 | a rod that bends: a coordinate of its own, particles |
+//! | [`NewtonsCradle`] | 5 | stops, impacts one after the other |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
 //! | [`Chebyshev`] | 0 | nearly straight line |
@@ -78,6 +79,7 @@ pub mod klann;
 pub mod metronome;
 pub mod n_four_bar;
 pub mod n_pendulum;
+pub mod newtons_cradle;
 pub mod pantograph;
 pub mod path_follower;
 pub mod peaucellier;
@@ -128,6 +130,7 @@ pub use n_pendulum::{
     NPendulum1, NPendulum1Parameters, NPendulum2, NPendulum2Parameters, NPendulum10, NPendulum10Parameters,
     NPendulum40, NPendulum40Parameters,
 };
+pub use newtons_cradle::{NewtonsCradle, NewtonsCradleInputs, NewtonsCradleParameters};
 pub use pantograph::{Pantograph, PantographParameters};
 pub use path_follower::{PathFollower, PathFollowerInputs, PathFollowerParameters};
 pub use peaucellier::{Peaucellier, PeaucellierParameters};

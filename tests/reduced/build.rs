@@ -15,7 +15,9 @@ fn main() {
             Some(name) => {
                 let path = library.join(name).with_extension("rs");
                 let text = fs::read_to_string(path).expect("a mechanism");
-                let reduced = text.replace(" dof = ", " states = reduced; dof = ");
+                // where there are stops all coordinates are integrated
+                let states = if text.contains("    stop ") { "all" } else { "reduced" };
+                let reduced = text.replace(" dof = ", &format!(" states = {states}; dof = "));
                 assert_ne!(reduced, text, "{name} has no degrees of freedom");
                 let _ = writeln!(code, "pub mod {name} {{\n{reduced}\n}}");
             }

@@ -17,9 +17,9 @@ use models::{
     ChaplyginSleigh, Chebyshev, CraneRope, DcMotor, DifferentialDrive, DoublePendulum, ElasticCrank, Engine,
     Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann,
     Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10,
-    NPendulum40, Pantograph, PathFollower, Peaucellier, Pendulum, PlanetaryGear, QuickReturn, ScotchYoke,
-    SliderCrank, SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress, TrammelOfArchimedes,
-    VEngine, WattLinkage,
+    NPendulum40, NewtonsCradle, Pantograph, PathFollower, Peaucellier, Pendulum, PlanetaryGear, QuickReturn,
+    ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress,
+    TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
 use paths::STRIDE;
@@ -176,6 +176,8 @@ library! {
         let stiffness = std::f64::consts::PI.powi(4)*p.modulus*p.side.powi(4)/(24.0*p.rod_length.powi(3));
         -2.0*p.damping_ratio*(stiffness*mass/2.0).sqrt()*at.v.w.powi(2)
     };
+    // until the first impact
+    NewtonsCradle: 0.5e-3, 0.2, [], |_, _, _| 0.0;
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     Chebyshev: 0.5e-3, 10.0, [], |_, _, _| 0.0;

@@ -29,6 +29,7 @@ mod sampled;
 mod sliders;
 mod squeezer;
 mod states;
+mod stops;
 mod swings;
 mod transmissions;
 mod wheels;
