@@ -184,7 +184,16 @@ fn axes<B: DrawingBackend>(
     area: Area,
 ) -> Drawn {
     const TICK: i32 = 5 * SCALE;
+    const MARK: i32 = 9 * SCALE;
     canvas.frame(area)?;
+    let marks = panel.marks.iter().map(|mark| x.pixel(*mark));
+    let mut marks: Vec<i32> =
+        marks.filter(|at| area.contains(*at, f64::from(area.top))).map(|at| at.round() as i32).collect();
+    marks.sort_unstable();
+    marks.dedup();
+    for at in marks {
+        canvas.line(vec![(at, area.top), (at, area.top + MARK)], INK, 1.4)?;
+    }
     for (at, label) in &x.ticks.major {
         let at = x.pixel(*at).round() as i32;
         canvas.line(vec![(at, area.bottom), (at, area.bottom + TICK)], INK, 1.0)?;

@@ -67,6 +67,8 @@ pub struct Panel {
     pub y: Axis,
     /// The curves, the map or the mechanism on them.
     pub content: Content,
+    /// Where ticks at the upper edge mark something, such as events of a run.
+    pub marks: Vec<f64>,
 }
 
 /// The content of a panel.
@@ -84,18 +86,24 @@ pub enum Content {
 impl Panel {
     /// A panel of curves.
     pub fn lines(x: Axis, y: Axis, series: impl IntoIterator<Item = Series>) -> Self {
-        Self { x, y, content: Content::Lines(series.into_iter().collect()) }
+        Self { x, y, content: Content::Lines(series.into_iter().collect()), marks: Vec::new() }
     }
 
     /// A panel with a mechanism.
     pub fn mechanism(picture: Picture) -> Self {
         let axis = |label: &str| Axis::new(label, "m");
-        Self { x: axis("x"), y: axis("y"), content: Content::Mechanism(picture) }
+        Self { x: axis("x"), y: axis("y"), content: Content::Mechanism(picture), marks: Vec::new() }
     }
 
     /// A panel with a heat map.
     pub fn map(x: Axis, y: Axis, map: HeatMap) -> Self {
-        Self { x, y, content: Content::Map(map) }
+        Self { x, y, content: Content::Map(map), marks: Vec::new() }
+    }
+
+    /// With ticks at the upper edge.
+    #[must_use]
+    pub fn marked(self, marks: impl IntoIterator<Item = f64>) -> Self {
+        Self { marks: marks.into_iter().collect(), ..self }
     }
 }
 

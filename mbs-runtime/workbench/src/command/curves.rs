@@ -33,18 +33,19 @@ impl Choice {
         Ok(columns)
     }
 
-    /// The columns to be drawn: coordinates, outputs and the violation if none are chosen.
+    /// The columns to be drawn: coordinates, outputs and the violation of constraints if none are chosen.
     pub fn drawn<'a>(&self, recording: &'a Recording) -> Result<Vec<&'a Column>, Error> {
         if !self.columns.is_empty() {
             return recording.select(self.columns.iter().map(String::as_str));
         }
         let (n, hidden) = (recording.coordinates, hidden(recording.lines));
+        let has_constraints = recording.columns.iter().any(|column| column.name.starts_with("lambda("));
         let is_usual = |at: usize, name: &str| match at.checked_sub(1) {
             None => false,
             Some(place) if place < n => place < recording.lines && !hidden.contains(&place),
             // rates of coordinates, then own states
             Some(place) if place < 2 * n => place - n >= recording.lines,
-            Some(_) => !name.starts_with("lambda("),
+            Some(_) => !name.starts_with("lambda(") && (has_constraints || name != "violation"),
         };
         let columns = recording.columns.iter().enumerate();
         Ok(columns.filter(|(at, column)| is_usual(*at, &column.name)).map(|(_, column)| column).collect())
@@ -115,12 +116,15 @@ pub(super) fn curves(title: &str, recording: &Recording, choice: &Choice) -> Res
             None => groups.push((kind, vec![column])),
         }
     }
+    // along the time, the events of a run
+    let is_time = recording.columns.first().is_some_and(|time| time.name == x.name);
+    let marks = || recording.occurrences.iter().filter(|_| is_time).map(|event| event.t);
     let mut figure = Figure::new(title).panel_height(300);
     for (kind, columns) in &groups {
         // As many to each panel.
         let panels = columns.len().div_ceil(MOST);
         for shared in columns.chunks(columns.len().div_ceil(panels.max(1)).max(1)) {
-            figure = figure.panel(panel(kind, x, shared));
+            figure = figure.panel(panel(kind, x, shared).marked(marks()));
         }
     }
     Ok(figure)
