@@ -35,7 +35,32 @@ const IN_SEQUENCE: usize = 16;
 /// A rate is 0 below this share of the terms of which it is made.
 const ROUNDING: f64 = 1e-12;
 
-/// Vectors to compute with, of a number per coordinate.
+/// Vectors to compute with.
+pub struct Vectors<V, C> {
+    still: V,
+    q: V,
+    v: V,
+    rows: C,
+}
+
+impl<V: Clone, C> Vectors<V, C> {
+    /// Of a zero per coordinate and a zero per constraint.
+    pub fn new(still: V, rows: C) -> Self {
+        Self { q: still.clone(), v: still.clone(), still, rows }
+    }
+
+    /// The vectors as slices.
+    pub fn changes<T>(&mut self) -> Changes<'_, T>
+    where
+        V: AsRef<[T]> + AsMut<[T]>,
+        C: AsMut<[T]>,
+    {
+        let Self { still, q, v, rows } = self;
+        Changes { still: (*still).as_ref(), rows: rows.as_mut(), q: q.as_mut(), v: v.as_mut() }
+    }
+}
+
+/// Vectors to compute with, as slices.
 pub struct Changes<'a, T> {
     /// Zeros.
     pub still: &'a [T],
@@ -134,7 +159,7 @@ struct Striking<'a, T> {
     change: Each<T>,
     /// The rest of the step behind the closing of a gap: 1 − s.
     rest: Each<T>,
-    /// What an impulse moves positions by: (1 − s) h, and nothing where it is the second half of a push.
+    /// The displacement by a unit impulse: (1 − s) h, and 0 where it is the second half of a push.
     shift: Each<T>,
 }
 

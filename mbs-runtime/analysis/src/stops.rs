@@ -25,9 +25,9 @@ fn gaps(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
     (gaps.into_iter().step_by(3).collect(), CLOSED * size)
 }
 
-/// What is found on a set of stops.
+/// A position that was found on a set of stops.
 pub struct Found<R> {
-    /// What is found.
+    /// The result of the search.
     pub result: R,
     /// Positions.
     pub q: Vec<f64>,

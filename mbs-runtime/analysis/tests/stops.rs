@@ -97,7 +97,8 @@ fn what_falls_is_found_where_it_lies() {
     }
 }
 
-/// What has no rest has none on stops either; a stop that is touches a stop without force has two sides.
+/// A force that drives away from a stop leaves no rest, on the stop neither. A position that touches a stop without force has
+/// two sides, and no linear system.
 #[test]
 fn what_cannot_be_told_is_refused() {
     let text = "Hover {

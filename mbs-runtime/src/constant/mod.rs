@@ -60,10 +60,15 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// [`Error::Singular`], [`Error::NonFinite`], [`Error::Input`]. The state stays that of the last good step.
     pub fn step(&mut self) -> Result<(), Error> {
         let was_solved = self.is_solved;
+        // a step that fails behind an impact has not set memories
+        let inputs = self.dynamics.has_stops().then(|| self.inputs.clone());
         let taken = self.try_step();
         if taken.is_err() {
             copy_moment(&mut self.next, &self.now);
             self.is_solved = was_solved;
+            if let Some(inputs) = inputs {
+                self.inputs = inputs;
+            }
         }
         taken
     }
@@ -90,18 +95,10 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
         if !dynamics.has_stops() {
             return Ok(0);
         }
-        let (mut still, mut of_q, mut of_v, mut v) = (q.clone(), q.clone(), q.clone(), v.clone());
-        vectors::fill(still.as_mut(), D::Real::default());
-        let mut rows = dynamics.no_feedback();
-        let changes = moreau::Changes {
-            still: still.as_ref(),
-            rows: rows.as_mut(),
-            q: of_q.as_mut(),
-            v: of_v.as_mut(),
-        };
+        let (mut v, mut vectors) = (v.clone(), vectors(dynamics));
         let pushed = dynamics.with_inputs(inputs, |inputs| {
             let at = (next.t, q.as_ref(), v.as_mut());
-            moreau::push(dynamics.equations(), (*step, changes), at, inputs)
+            moreau::push(dynamics.equations(), (*step, vectors.changes()), at, inputs)
         })?;
         if pushed != 0 {
             next.v = dynamics.states(&v);
@@ -112,28 +109,17 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
 
     /// Leads the step that was tried back from the stops that are closed at its end.
     fn strike(&mut self, pushed: u32) -> Result<(), Error> {
-        let Self { dynamics, inputs, step, now, next, .. } = self;
+        let Self { dynamics, inputs, step, now, next, all: [q_before, v_before], .. } = self;
         if !dynamics.has_stops() {
             return Ok(());
         }
-        let (t, start) = (next.t, dynamics.declared_start());
-        let [mut before, mut after, mut of] = [(); 3].map(|()| [start.1.clone(), start.2.clone()]);
-        dynamics.complete(now.t, &now.q, &now.v, &mut before);
+        let (t, mut vectors, mut after) = (next.t, vectors(dynamics), [q_before.clone(), v_before.clone()]);
         dynamics.complete(t, &next.q, &next.v, &mut after);
-        let ([q, v], [of_q, of_v], mut still) = (&mut after, &mut of, start.1);
-        vectors::fill(still.as_mut(), D::Real::default());
-        let mut rows = dynamics.no_feedback();
-        let changes = moreau::Changes {
-            still: still.as_ref(),
-            rows: rows.as_mut(),
-            q: of_q.as_mut(),
-            v: of_v.as_mut(),
-        };
-        let [q_before, v_before] = &before;
+        let [q, v] = &mut after;
         let before = At { t: now.t, q: q_before.as_ref(), v: v_before.as_ref() };
         let has_acted = dynamics.with_inputs(inputs, |inputs| {
-            let end = (t, [q.as_mut(), v.as_mut()]);
-            moreau::strike(dynamics.equations(), (*step, changes), (pushed, before), end, inputs)
+            let (end, equations) = ((t, [q.as_mut(), v.as_mut()]), dynamics.equations());
+            moreau::strike(equations, (*step, vectors.changes()), (pushed, before), end, inputs)
         })?;
         if has_acted {
             (next.q, next.v) = (dynamics.states(q), dynamics.states(v));
@@ -296,6 +282,13 @@ impl<D: Dynamics, K: Kernel<D>> fmt::Debug for ConstantStep<D, K> {
         shown.field("method", &kernel.word()).field("t", &now.t).field("step", step);
         shown.field("steps", steps).finish_non_exhaustive()
     }
+}
+
+/// Vectors that stops compute with.
+fn vectors<D: Dynamics>(dynamics: &D) -> moreau::Vectors<D::Coordinates, D::Constraints> {
+    let mut zero = dynamics.declared_start().1;
+    vectors::fill(zero.as_mut(), D::Real::default());
+    moreau::Vectors::new(zero, dynamics.no_feedback())
 }
 
 fn copy_moment<T: Real, V: AsRef<[T]> + AsMut<[T]>>(to: &mut Moment<T, V>, from: &Moment<T, V>) {

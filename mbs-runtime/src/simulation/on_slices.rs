@@ -2,6 +2,7 @@
 //! all mechanisms.
 
 use super::Simulation;
+use crate::arrays::{Constraints, Coordinates};
 use crate::equations::Arrays;
 use crate::room::{OnStack, Room};
 use crate::run::Run;
@@ -129,6 +130,12 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     }
 }
 
+/// Vectors that stops compute with.
+fn vectors<M: Mechanism>() -> moreau::Vectors<Coordinates<M>, Constraints<M>> {
+    let zero = M::Coordinates::splat(M::Real::default()).into_array();
+    moreau::Vectors::new(zero, M::Constraints::splat(M::Real::default()).into_array())
+}
+
 /// The stops that push before a step, which changes velocities.
 ///
 /// # Errors
@@ -140,13 +147,9 @@ pub(crate) fn pushed<M: Mechanism>(
     inputs: &M::Inputs,
 ) -> Result<u32, Error> {
     let Arrays { t, q, mut v } = Arrays::of(&mechanism.complete(state));
-    let zero = M::Coordinates::splat(M::Real::default()).into_array();
-    let mut rows = M::Constraints::splat(M::Real::default()).into_array();
-    let (mut of_q, mut of_v) = (zero, zero);
-    let changes =
-        moreau::Changes { still: zero.as_ref(), rows: rows.as_mut(), q: of_q.as_mut(), v: of_v.as_mut() };
-    let inputs = inputs.into_array();
-    let pushed = moreau::push(mechanism, (h, changes), (t, q.as_ref(), v.as_mut()), inputs.as_ref())?;
+    let (inputs, mut vectors) = (inputs.into_array(), vectors::<M>());
+    let pushed =
+        moreau::push(mechanism, (h, vectors.changes()), (t, q.as_ref(), v.as_mut()), inputs.as_ref())?;
     if pushed != 0 {
         state.v = M::states(Components::from_array(v));
     }
@@ -164,14 +167,9 @@ pub(crate) fn struck<M: Mechanism>(
     inputs: &mut M::Inputs,
 ) -> Result<State<M::States>, Error> {
     let [before, after] = ends.map(|end| Arrays::of(&mechanism.complete(end)));
-    let zero = M::Coordinates::splat(M::Real::default()).into_array();
     let (Arrays { t, mut q, mut v }, mut own) = (after, inputs.into_array());
-    let (mut of_q, mut of_v) = (zero, zero);
-    let mut rows = M::Constraints::splat(M::Real::default()).into_array();
-    let changes =
-        moreau::Changes { still: zero.as_ref(), rows: rows.as_mut(), q: of_q.as_mut(), v: of_v.as_mut() };
-    let end = (t, [q.as_mut(), v.as_mut()]);
-    moreau::strike(mechanism, (h, changes), (pushed, before.at()), end, own.as_mut())?;
+    let (end, mut vectors) = ((t, [q.as_mut(), v.as_mut()]), vectors::<M>());
+    moreau::strike(mechanism, (h, vectors.changes()), (pushed, before.at()), end, own.as_mut())?;
     *inputs = Components::from_array(own);
     let State { t, q, v } = Arrays { t, q, v }.state();
     Ok(State { t, q: M::states(q), v: M::states(v) })

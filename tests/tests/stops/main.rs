@@ -14,8 +14,17 @@ use mbs_runtime::{
 
 const TIGHT: Tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_step: f64::INFINITY, first_step: None };
 
-mechanism! {
-    /// A ball that falls from a height of 1 m.
+/// A declaration as a type, and as a text.
+macro_rules! declared {
+    ($text:ident; $($tokens:tt)*) => {
+        mechanism! { $($tokens)* }
+        const $text: &str = stringify!($($tokens)*);
+    };
+}
+use declared;
+
+// a ball that falls from a height of 1 m
+declared! { BALL;
     Ball {
         dof = 1;
         param e = 0.7;
@@ -91,15 +100,7 @@ fn derivatives_go_through_impacts() -> Result<(), Error> {
 /// The ball as a text takes the steps of the type, to the bit.
 #[test]
 fn a_text_bounces_as_a_type() -> Result<(), Error> {
-    let text = "Ball {
-        dof = 1;
-        param e = 0.7;
-        gravity = (0, -9.81) [m/s^2];
-        body ball (y) { mass = 2 [kg]; }
-        stop floor: y >= 0 [m] { restitution = e; }
-        start { y = 1 [m]; }
-    }";
-    let live = Text::declaration("ball.mbs", text).compile().expect("a ball");
+    let live = Text::declaration("ball.mbs", BALL).compile().expect("a ball");
     let mut typed = Sampled::new(Adaptive::builder(Ball::declared()).tolerances(TIGHT).build()?, 0.1)?;
     let mut read = Sampled::new(Adaptive::builder(Prepared::new(&live)).tolerances(TIGHT).build()?, 0.1)?;
     for _ in 0..30 {

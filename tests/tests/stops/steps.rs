@@ -5,7 +5,7 @@ use mbs_runtime::equations::{At, Described};
 use mbs_runtime::lanes::Pack as Lanes;
 use mbs_runtime::{Baumgarte, Dual, Error, Held, Rattle, Rk4, Simulation, System, TrBdf2, mechanism};
 
-use super::{Ball, BallParameters};
+use super::{Ball, BallParameters, declared};
 
 /// The height of the ball of the closed form at 1.5 s, after two impacts, and the sum of its impulses until it rests.
 fn closed_form(e: f64) -> [f64; 2] {
@@ -42,8 +42,10 @@ fn impacts_are_of_second_order_and_rests_exact() -> Result<(), Error> {
         for run in &mut runs {
             let [found, sum, y, v, held] = bounced(run.as_mut())?;
             assert!((found - height).abs() < 2.0 * h * h, "{h}: {found} {height}");
-            // the flights that are shorter than two steps are missing
-            assert!((sum - impulses).abs() < 2.0 * 9.81 * h * 20.0, "{h}: {sum} {impulses}");
+            // the flights are missing that are shorter than two steps, from v = g h on: m v (1 + e)/(1 − e), which the
+            // errors of those that are flown may double
+            let missing = 2.0 * 9.81 * h * 1.7 / 0.3;
+            assert!((sum - impulses).abs() < 2.0 * missing, "{h}: {sum} {impulses}");
             assert_eq!([y, v, held], [0.0, 0.0, 1.0], "{h}");
             // what rests has no acceleration
             let mut a = [f64::NAN];
@@ -54,8 +56,8 @@ fn impacts_are_of_second_order_and_rests_exact() -> Result<(), Error> {
     Ok(())
 }
 
-mechanism! {
-    /// Three blocks, each above the next one, the lowest in a guide.
+// three blocks, each above the next one, the lowest in a guide
+declared! { STACK;
     Stack {
         dof = 3;
         gravity = (0, -9.81) [m/s^2];
@@ -89,20 +91,7 @@ fn what_is_stacked_rests() -> Result<(), Error> {
 /// The stack as a text takes the steps of the type, to the bit, and so do both from their start on.
 #[test]
 fn texts_and_types_take_the_same_steps() -> Result<(), Error> {
-    let text = "Stack {
-        dof = 3;
-        gravity = (0, -9.81) [m/s^2];
-        body low (x, y) { mass = 1 [kg]; }
-        body middle (y = u) { mass = 3 [kg]; }
-        body high (y = w) { mass = 2 [kg]; }
-        constraint guide: x = 0.2 [1/m]*y^2;
-        stop floor: y >= 0.1 [m] { restitution = 0.5; }
-        stop first: u - y >= 0.2 [m] { restitution = 0.3; }
-        stop second: w - u >= 0.2 [m] { restitution = 0; }
-        start { y = 0.3 [m]; guess x = 0; u = 0.7 [m]; w = 1 [m]; }
-        output weight [N] = floor_impulse/(1 [s]);
-    }";
-    let live = Text::declaration("stack.mbs", text).compile().expect("a stack");
+    let live = Text::declaration("stack.mbs", STACK).compile().expect("a stack");
     let (mut typed, mut read) =
         (Simulation::new(Stack::declared(), 1e-3)?, Run::builder(&live, 1e-3).build()?);
     for _ in 0..3000 {
@@ -180,7 +169,7 @@ fn stops_that_close_on_each_other_end_the_run() -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether a gap is closed at the end of a step does not tell how its time depends on parameters.
+/// A gap that is closed at the end of a step does not tell how the time of its closing depends on parameters.
 #[test]
 fn derivatives_of_constant_steps_are_refused() -> Result<(), Error> {
     let ball = Ball::new(BallParameters { e: Dual::<f64, 1>::variable(0.7, 0) })?;

@@ -1,6 +1,6 @@
 //! Stops at the ends of the steps of a run.
 
-use mbs_runtime::equations::{At, Changes, Equations, begin_at_stops, push, strike};
+use mbs_runtime::equations::{At, Equations, Vectors, begin_at_stops, push, strike};
 use mbs_runtime::{Error, Real};
 
 use super::Run;
@@ -26,10 +26,9 @@ impl<T: Real> Run<T> {
     /// The stops that push before a step.
     fn push(&mut self) -> Result<u32, Error> {
         let [q, mut v] = self.completed();
-        let [still, mut of_q, mut of_v] = [(); 3].map(|()| vec![T::ZERO; q.len()]);
-        let mut rows = vec![T::ZERO; self.multipliers];
-        let changes = Changes { still: &still, rows: &mut rows, q: &mut of_q, v: &mut of_v };
-        let pushed = push(&self.mechanism, (self.step, changes), (self.t, &q, &mut v), &self.inputs)?;
+        let mut vectors = Vectors::new(vec![T::ZERO; q.len()], vec![T::ZERO; self.multipliers]);
+        let pushed =
+            push(&self.mechanism, (self.step, vectors.changes()), (self.t, &q, &mut v), &self.inputs)?;
         if pushed != 0 {
             self.mechanism.states(&v, &mut self.v);
         }
@@ -38,11 +37,9 @@ impl<T: Real> Run<T> {
 
     fn strike(&mut self, pushed: u32, before: At<'_, T>) -> Result<(), Error> {
         let [mut q, mut v] = self.completed();
-        let [still, mut of_q, mut of_v] = [(); 3].map(|()| vec![T::ZERO; q.len()]);
-        let mut rows = vec![T::ZERO; self.multipliers];
-        let changes = Changes { still: &still, rows: &mut rows, q: &mut of_q, v: &mut of_v };
+        let mut vectors = Vectors::new(vec![T::ZERO; q.len()], vec![T::ZERO; self.multipliers]);
         let end = (self.t, [&mut q[..], &mut v[..]]);
-        if strike(&self.mechanism, (self.step, changes), (pushed, before), end, &mut self.inputs)? {
+        if strike(&self.mechanism, (self.step, vectors.changes()), (pushed, before), end, &mut self.inputs)? {
             self.mechanism.states(&q, &mut self.q);
             self.mechanism.states(&v, &mut self.v);
         }

@@ -80,7 +80,7 @@ fn unsampled(compiled: &Compiled, text: &str) -> String {
     })
 }
 
-/// What a run gives; forces at stops only where there are any.
+/// The functions that a run is asked with, and forces at stops where there are any.
 fn results(compiled: &Compiled) -> String {
     let text = include_str!("text/results.c");
     let is_kept = |line: &&str| !compiled.stops.is_empty() || !line.contains("NAME_press(");

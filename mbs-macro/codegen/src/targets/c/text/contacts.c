@@ -1,6 +1,6 @@
 /* Stops: responses to unit impulses along their gaps. */
 
-/* How the rate of one gap answers a unit impulse at a stop. */
+/* The change of the rate of one gap by a unit impulse at a stop. */
 static real NAME_mobility(const real *contacts, int of, int by)
 {
     return contacts[CAPS_STOPS * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS + by) + of];
@@ -122,7 +122,7 @@ static void NAME_add_responses(const real *contacts, const real *x, int from, in
     }
 }
 
-/* Which stops are rested on; whether any is. */
+/* Marks the stops that are rested on; true if there is one. */
 static int NAME_find_held(const struct NAME_run *run, int *held)
 {
     int is_held = 0;

@@ -31,7 +31,7 @@ static void NAME_rebound(const struct NAME_run *run, const real *rates, real *re
     }
 }
 
-/* How impulses change the rates of gaps. */
+/* Adds to rates of gaps their changes by impulses. */
 static void NAME_change_rates(const real *contacts, const real *impulses, real *rates)
 {
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
@@ -85,7 +85,7 @@ static int NAME_push(struct NAME_run *run, int *pushed)
     return CAPS_OK;
 }
 
-/* What stops make of a step: the rates of gaps at its start and its end, and what lies behind their closing. */
+/* A step that ends at stops: the rates of gaps at its start and its end, and the impulses that answer them. */
 struct NAME_answer {
     real before[CAPS_STOPS], now[CAPS_STOPS], gap_now[CAPS_STOPS];
     /* the part of the step behind the closing of a gap, and what an impulse moves positions by */

@@ -17,7 +17,7 @@ class AtStops extends Start {
     return stop * (2 * this.q.length + this.tables.constraints.length);
   }
 
-  // How the rate of one gap answers a unit impulse at a stop.
+  // The change of the rate of one gap by a unit impulse at a stop.
   mobility(of, by) {
     return this.mechanism.contacts[this.responses(this.tables.stops.length) + by * this.tables.stops.length + of];
   }
