@@ -56,8 +56,8 @@ pub fn complementary<R>(
         tried.insert(set.clone());
         let stops: Vec<usize> = set.iter().copied().collect();
         match look(&Resting::new(mechanism, &stops)).and_then(|found| judged(mechanism, t, &stops, found)) {
-            Ok(Ok(result)) => return Ok((stops, result)),
-            Ok(Err((changed, behind))) => {
+            Ok(Verdict::Rests(result)) => return Ok((stops, result)),
+            Ok(Verdict::Leads(changed, behind)) => {
                 first.get_or_insert(behind);
                 next = Some(changed).filter(|set| !tried.contains(set));
             }
@@ -69,14 +69,21 @@ pub fn complementary<R>(
     Err(first.unwrap_or(Error::NoFreedom { mechanism: mechanism.info().name }))
 }
 
-/// The result, or the set to which it leads, and why.
-#[allow(clippy::type_complexity, reason = "the next set and an error")]
+/// The verdict on a position that was found on a set of stops.
+enum Verdict<R> {
+    /// It rests there.
+    Rests(R),
+    /// It leads to another set; the error is that of a search which ends here.
+    Leads(BTreeSet<usize>, Error),
+}
+
+/// Looks for a stop of a set that pulls, and for another one that lies before the position.
 fn judged<R>(
     mechanism: &dyn Described<f64>,
     t: f64,
     stops: &[usize],
     Found { result, q, multipliers }: Found<R>,
-) -> Result<Result<R, (BTreeSet<usize>, Error)>, Error> {
+) -> Result<Verdict<R>, Error> {
     let (gaps, size) = gaps(mechanism, t, &q);
     let behind = |stop: usize| {
         let name = mechanism.info().stops[stop].name;
@@ -92,15 +99,15 @@ fn judged<R>(
     let pulled = (0..stops.len()).max_by(|a, b| of_stops[*a].total_cmp(&of_stops[*b]));
     if let Some(at) = pulled.filter(|at| of_stops[*at] > PULLS * largest) {
         set.remove(&stops[at]);
-        return Ok(Err((set, behind(stops[at]))));
+        return Ok(Verdict::Leads(set, behind(stops[at])));
     }
     let others = (0..gaps.len()).filter(|stop| !stops.contains(stop));
     let worst = others.min_by(|a, b| gaps[*a].total_cmp(&gaps[*b]));
     match worst.filter(|stop| gaps[*stop] < -size) {
-        None => Ok(Ok(result)),
+        None => Ok(Verdict::Rests(result)),
         Some(stop) => {
             set.insert(stop);
-            Ok(Err((set, behind(stop))))
+            Ok(Verdict::Leads(set, behind(stop)))
         }
     }
 }
