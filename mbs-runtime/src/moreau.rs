@@ -26,9 +26,9 @@ use crate::mechanism::growth_limit;
 use crate::pressing::held;
 use crate::{Error, Real, vectors};
 
-/// A start is behind a stop by more than this share of the size of the coordinates,
+/// A start is behind a stop by more than this share of the size of the coordinates.
 const BEHIND: f64 = 1e-9;
-/// which is at least so many m or rad: at the origin nothing else tells what is rounding.
+/// The least size in m or rad: at the origin nothing else tells what is rounding.
 const LEAST_SIZE: f64 = 1e-3;
 /// So many impacts follow each other within a step. What closes then is rested on.
 const IN_SEQUENCE: usize = 16;
@@ -72,7 +72,7 @@ pub struct Changes<'a, T> {
     pub v: &'a mut [T],
 }
 
-/// Half of what the forces of rest do in a step of `h` seconds, before it: adds to velocities. The stops that push.
+/// Adds half of the impulses of rest over a step of `h` seconds to the velocities at its start. Gives the stops that push.
 ///
 /// # Errors
 /// [`Error::Impact`].
@@ -98,8 +98,8 @@ pub fn push<T: Real>(
     pushing.flatten().ok_or_else(|| impact(equations, t, held))
 }
 
-/// Leads all coordinates and velocities at the end of a step of `h` seconds back from the stops that are closed there, and
-/// sets the memories of stops. The stops that have [pushed](push) before the step are closed. True if anything has changed.
+/// Answers the stops at the end of a step of `h` seconds: changes all coordinates and velocities there, and sets the memories
+/// of stops. Those that have [pushed](push) before the step count as closed. Gives true if anything has changed.
 ///
 /// # Errors
 /// [`Error::Impact`].
@@ -250,7 +250,7 @@ impl<'a, T: Real> Striking<'a, T> {
         zip(&self.ends.rate[1], &behind, |rate, behind| rate - behind)
     }
 
-    /// The rates with which gaps open that close with others: −e ġ.
+    /// The rates −e ġ with which gaps open again.
     fn rebounds(&self, rates: &Each<T>) -> Each<T> {
         rebounds(self.restitutions, rates)
     }
@@ -268,7 +268,7 @@ impl<'a, T: Real> Striking<'a, T> {
     }
 }
 
-/// Sets the memories of the stops that a start rests on, with accelerations that are given without them.
+/// Sets the memories of the stops that a start rests on. The accelerations are those without stops.
 ///
 /// # Errors
 /// [`Error::Behind`], [`Error::Impact`].
@@ -304,7 +304,7 @@ pub fn begin<T: Real>(
     Ok(())
 }
 
-/// The rates that forces at the stops of a set take from gaps in a step, in which gaps change their rates without them.
+/// The change of the rate of each gap in a step by the force at its own stop; `change` is that of all rates without stops.
 fn taken<T: Real>(contacts: &Contacts<'_, T>, closed: u32, change: &Each<T>) -> Option<Each<T>> {
     let (_, impulses) = contacts.complementary(closed, change)?;
     Some(core::array::from_fn(|stop| contacts.mobility(stop, stop) * of(&impulses, stop)))
@@ -319,7 +319,7 @@ fn restitutions<T: Real>(equations: &dyn Equations<T>) -> Each<T> {
     core::array::from_fn(|stop| laws.get(2 * stop).copied().unwrap_or_default())
 }
 
-/// The rates with which gaps open that have closed with others.
+/// The rates −e ġ with which gaps open again that close with the rates ġ.
 fn rebounds<T: Real>(restitutions: &Each<T>, rates: &Each<T>) -> Each<T> {
     zip(
         restitutions,

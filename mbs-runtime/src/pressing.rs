@@ -52,7 +52,7 @@ pub(crate) fn pressed<T: Real>(
     found.unwrap_or(none)
 }
 
-/// Adds to velocities, accelerations or positions the responses to x with W x + b = 0 at some stops, and writes x; the
+/// Adds to velocities, accelerations or positions the responses to x with W x + b = 0 at some stops, and writes x. Gives the
 /// pivot growth of the responses.
 pub fn lean<T: Real>(
     equations: &dyn Equations<T>,

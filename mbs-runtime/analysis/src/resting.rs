@@ -48,15 +48,15 @@ impl<'a, T: Real> Resting<'a, T> {
         self.stops.iter().map(of).collect()
     }
 
-    /// Adds to a vector that has no part in the gaps' rows, but for `short` of each, what leads there; the forces at the
-    /// stops.
+    /// Adds the responses to forces at the stops that take `short` away from each of their rows. Gives the pivot growth and the
+    /// forces.
     fn lead(&self, t: T, q: &[T], short: &[T], to: &mut [T]) -> (T, Vec<T>) {
         let mut forces = vec![T::ZERO; self.stops.len()];
         let growth = lean(self.free, (t, q), &self.stops, short, (to, &mut forces));
         (growth, forces)
     }
 
-    /// Adds to a correction that solves the declared rows what solves those of stops.
+    /// Adds the part of a correction that solves the rows of stops; the declared rows stay solved.
     fn correct(&self, t: T, q: &[T], residual: &[T], to: &mut [T]) -> T {
         let still = vec![T::ZERO; q.len()];
         let rates = |v: &[T]| self.gaps(At { t, q, v }, &still);

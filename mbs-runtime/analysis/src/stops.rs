@@ -37,8 +37,8 @@ pub struct Found<R> {
 
 /// The stops that are rested on, and what is found there: none pulls, and no other gap is negative. `look` looks on a set.
 ///
-/// Sets are tried one after the other: the one to which a position behind a stop, or a stop that pulls, leads; where
-/// that finds nothing, all sets from the smallest ones on.
+/// Sets are tried one after the other. A position behind a stop leads to the set with this stop, a stop that pulls to the set
+/// without it. Where that finds nothing, all sets are tried, from the smallest ones on.
 ///
 /// # Errors
 /// Those of `look` without stops; [`Behind`](mbs_runtime::Error::Behind).

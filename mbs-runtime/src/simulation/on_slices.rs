@@ -156,7 +156,7 @@ pub(crate) fn pushed<M: Mechanism>(
     Ok(pushed)
 }
 
-/// The end of a step as stops make it, which set their memories; the stops that have pushed before it.
+/// The end of a step behind the answer of stops, which sets their memories. `pushed` are those that pushed before the step.
 ///
 /// # Errors
 /// [`Error::Impact`].
