@@ -18,7 +18,7 @@
 use crate::Real;
 use crate::equations::{At, Equations};
 
-/// At most so many stops has a mechanism.
+/// At most so many stops and frictions that stick has a mechanism.
 pub(crate) const MOST_STOPS: usize = 16;
 
 /// A number per stop.
@@ -46,7 +46,7 @@ impl<T: Real> Gaps<T> {
     /// In a state with given accelerations.
     pub fn of(equations: &dyn Equations<T>, at: At<'_, T>, acceleration: &[T]) -> Self {
         let mut values = [T::default(); 3 * MOST_STOPS];
-        let count = equations.info().stops.len();
+        let count = equations.info().contacts();
         if let Some(values) = values.get_mut(..3 * count) {
             equations.gaps(at, acceleration, values);
         }
@@ -74,7 +74,7 @@ impl<'a, T: Real> Contacts<'a, T> {
         what: impl FnOnce(Contacts<'_, T>) -> R,
     ) -> Option<R> {
         let info = equations.info();
-        let (stops, coordinates) = (info.stops.len(), info.coordinates.len());
+        let (stops, coordinates) = (info.contacts(), info.coordinates.len());
         let constraints = info.constraints.len();
         let (mut what, mut result) = (Some(what), None);
         equations.contacts(t, q, &mut |values| {
@@ -153,27 +153,28 @@ impl<'a, T: Real> Contacts<'a, T> {
         solution
     }
 
-    /// x ≥ 0 with W x + b ≥ 0 of the stops of a set, of which one or the other is 0 at each, and the set of those where
-    /// W x + b is; nothing where there is none.
-    pub fn complementary(&self, set: u32, b: &Each<T>) -> Option<(u32, Each<T>)> {
-        let mut active = 0;
+    /// x ≥ 0 with W x + b ≥ 0 of a set, of which one or the other is 0 at each, and the set of those where W x + b is;
+    /// nothing where there is none. At those that are `bound` x has any sign, and W x + b = 0.
+    pub fn complementary(&self, set: u32, bound: u32, b: &Each<T>) -> Option<(u32, Each<T>)> {
+        let mut active = bound & set;
         for _ in 0..MOST_PIVOTS {
             let x = self.solve(active, b);
-            let Some(wrong) = self.least_wrong(set, active, b, &x) else { return Some((active, x)) };
+            let Some(wrong) = self.least_wrong(set & !bound, active, b, &x) else { return Some((active, x)) };
             // an active one that closes all the same depends on others: it takes the place of one of them
             let is_dependent = has(active, wrong) && number(&x, wrong) == 0.0;
-            active ^= bit(if is_dependent { self.exchanged(active, wrong, &x)? } else { wrong });
+            active ^= bit(if is_dependent { self.exchanged(active, (wrong, bound), &x)? } else { wrong });
         }
         None
     }
 
     /// The first active stop whose impulse becomes 0 where that of one grows that depends on them.
-    fn exchanged(&self, active: u32, by: usize, x: &Each<T>) -> Option<usize> {
+    fn exchanged(&self, active: u32, (by, bound): (usize, u32), x: &Each<T>) -> Option<usize> {
         let column =
             core::array::from_fn(|of| if of < self.stops { -self.mobility(of, by) } else { T::default() });
         let shares = self.solve(active & !bit(by), &column);
         let ratio = |stop: usize| number(x, stop) / number(&shares, stop);
-        let shrinking = (0..self.stops).filter(|stop| number(&shares, *stop) > DEPENDENT);
+        let is_shrinking = |stop: &usize| !has(bound, *stop) && number(&shares, *stop) > DEPENDENT;
+        let shrinking = (0..self.stops).filter(is_shrinking);
         shrinking.reduce(|first, stop| if ratio(stop) < ratio(first) { stop } else { first })
     }
 
@@ -202,6 +203,15 @@ impl<'a, T: Real> Contacts<'a, T> {
                 for (to, y) in to.iter_mut().zip(self.response(stop)) {
                     *to = *to + x * *y;
                 }
+            }
+        }
+    }
+
+    /// Adds what x does to multipliers.
+    pub fn react(&self, x: &Each<T>, multipliers: &mut [T]) {
+        for (stop, &force) in x.iter().enumerate().take(self.stops) {
+            for (to, y) in multipliers.iter_mut().zip(self.reactions(stop)) {
+                *to = *to + force * *y;
             }
         }
     }
@@ -277,7 +287,7 @@ mod tests {
         let contacts = Contacts { stops: N, coordinates: 0, constraints: 0, values: &values };
         let mut all = [0.0; MOST_STOPS];
         all[..N].copy_from_slice(&b);
-        let (active, x) = contacts.complementary((1 << N) - 1, &all)?;
+        let (active, x) = contacts.complementary((1 << N) - 1, 0, &all)?;
         Some((active, core::array::from_fn(|at| x[at])))
     }
 

@@ -3,6 +3,7 @@
 use crate::differentiable::Differentiable;
 use crate::equations::{At, Equations, read, write};
 use crate::pressing::press;
+use crate::sticking::hold;
 use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch, vectors};
 
 /// The outputs, energies, texts and pictures of a mechanism, on slices as [`Equations`]. They are
@@ -46,14 +47,11 @@ impl<M: Mechanism> Described<M::Real> for M {
         acceleration: &mut [M::Real],
         multipliers: &mut [M::Real],
     ) -> M::Real {
-        let none = M::Constraints::splat(M::Real::default());
-        let solved = Mechanism::reactions(self, &at.state(), &read(inputs), &none);
-        write(solved.acceleration, acceleration);
-        write(solved.multipliers, multipliers);
-        if M::INFO.stops.is_empty() {
-            return solved.growth;
+        let growth = self.free_reactions(at, inputs, acceleration, multipliers);
+        if M::INFO.contacts() == 0 {
+            return growth;
         }
-        solved.growth + press(self, at, inputs, acceleration, Some(multipliers))
+        growth + press(self, at, inputs, acceleration, Some(multipliers))
     }
 
     fn outputs(
@@ -64,9 +62,17 @@ impl<M: Mechanism> Described<M::Real> for M {
         outputs: &mut [M::Real],
     ) {
         let growth = M::Real::default();
-        let reactions =
-            Reactions { acceleration: read(acceleration), multipliers: read(multipliers), growth };
-        write(Mechanism::outputs(self, &at.state(), &read(inputs), &reactions), outputs);
+        let (acceleration, multipliers): (M::Coordinates, M::Constraints) =
+            (read(acceleration), read(multipliers));
+        let mut inputs: M::Inputs = read(inputs);
+        if !M::INFO.frictions.is_empty() {
+            let mut own = inputs.into_array();
+            let (mut a, mut lambda) = (acceleration.into_array(), multipliers.into_array());
+            hold(self, at, own.as_mut(), [a.as_mut(), lambda.as_mut()]);
+            inputs = Components::from_array(own);
+        }
+        let reactions = Reactions { acceleration, multipliers, growth };
+        write(Mechanism::outputs(self, &at.state(), &inputs, &reactions), outputs);
     }
 
     fn events(&self, at: At<'_, M::Real>, inputs: &[M::Real], values: &mut [M::Real]) {

@@ -110,6 +110,8 @@ impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
         Equations::switches(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
         Equations::stop_laws(laws: &mut [f64]);
         Equations::gaps(at: At<'_, f64>, acceleration: &[f64], gaps: &mut [f64]);
+        Equations::limits(at: At<'_, f64>, inputs: &[f64], reactions: [&[f64]; 2], limits: &mut [f64]);
+        Equations::free_reactions(at: At<'_, f64>, inputs: &[f64], a: &mut [f64], multipliers: &mut [f64]) -> f64;
         Equations::contacts(t: f64, q: &[f64], what: &mut dyn FnMut(&[f64]));
         Equations::clock(clock: usize) -> [f64; 2];
         Equations::sample(at: At<'_, f64>, inputs: &mut [f64], clock: usize);

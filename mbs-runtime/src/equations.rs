@@ -21,6 +21,7 @@ pub use crate::start::assembly::{assemble, consistent, project_velocities};
 pub use crate::start::consistency::check;
 pub use crate::start::preparation::{Preparation, Start};
 pub use crate::start::projection::project;
+pub use crate::sticking::hold;
 pub use crate::watch::Watch;
 
 use crate::{Components, Gains, Info, Mechanism, Reactions, Real, State, Switch, vectors};
@@ -118,6 +119,14 @@ pub trait Equations<T: Real> {
     /// Writes the gap of every stop, its rate and its second derivative; see [`Mechanism::gaps`].
     fn gaps(&self, _at: At<'_, T>, _acceleration: &[T], _gaps: &mut [T]) {}
 
+    /// Writes the size of every friction that sticks while it slides, and the largest one with which it sticks, given q̈
+    /// and λ; see [`Mechanism::limits`].
+    fn limits(&self, _at: At<'_, T>, _inputs: &[T], _reactions: [&[T]; 2], _limits: &mut [T]) {}
+
+    /// q̈ and λ without feedback terms, and without what stops and frictions do that hold; their pivot growth.
+    fn free_reactions(&self, at: At<'_, T>, inputs: &[T], acceleration: &mut [T], multipliers: &mut [T])
+    -> T;
+
     /// Does something with the responses to unit impulses along gaps; see [`Mechanism::contacts`].
     fn contacts(&self, _t: T, _q: &[T], _what: &mut dyn FnMut(&[T])) {}
 
@@ -160,6 +169,32 @@ impl<M: Mechanism> Equations<M::Real> for M {
         let reactions =
             Reactions { acceleration: read(acceleration), multipliers, growth: M::Real::default() };
         Mechanism::gaps(self, &at.state(), &reactions, gaps);
+    }
+
+    fn limits(
+        &self,
+        at: At<'_, M::Real>,
+        inputs: &[M::Real],
+        [a, lambda]: [&[M::Real]; 2],
+        limits: &mut [M::Real],
+    ) {
+        let growth = M::Real::default();
+        let reactions = Reactions { acceleration: read(a), multipliers: read(lambda), growth };
+        Mechanism::limits(self, &at.state(), &read(inputs), &reactions, limits);
+    }
+
+    fn free_reactions(
+        &self,
+        at: At<'_, M::Real>,
+        inputs: &[M::Real],
+        acceleration: &mut [M::Real],
+        multipliers: &mut [M::Real],
+    ) -> M::Real {
+        let none = M::Constraints::splat(M::Real::default());
+        let solved = Mechanism::reactions(self, &at.state(), &read(inputs), &none);
+        write(solved.acceleration, acceleration);
+        write(solved.multipliers, multipliers);
+        solved.growth
     }
 
     fn contacts(&self, t: M::Real, q: &[M::Real], what: &mut dyn FnMut(&[M::Real])) {

@@ -53,6 +53,8 @@ pub struct Info {
     pub sampling: Sampling,
     /// The ends of the way, which runs to a tolerance hit and rest on.
     pub stops: &'static [DeclaredStop],
+    /// Friction that sticks.
+    pub frictions: &'static [DeclaredFriction],
     /// Operation counts of the generated functions.
     pub functions: &'static [Function],
 }
@@ -118,6 +120,18 @@ pub struct DeclaredStop {
     pub memory: usize,
     /// The gap, unless it is too long to read.
     pub formula: &'static str,
+}
+
+/// Friction that is declared with `law = coulomb`: it holds still what does not overcome it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeclaredFriction {
+    /// Its name.
+    pub name: &'static str,
+    /// The place among the inputs of the memory of the direction in which it slides, −1 or 1, and 0 while it sticks; that of
+    /// the force with which it holds is behind it.
+    pub memory: usize,
+    /// The size of the force while it slides, and the largest one with which it sticks, unless they are too long to read.
+    pub limits: [&'static str; 2],
 }
 
 /// A declared change of sign of a value.
@@ -307,17 +321,40 @@ impl Info {
     }
 
     /// The name of an event by its index: that of a declared one, or of a stop, which count down from the last of
-    /// [`MOST_EVENTS`](crate::MOST_EVENTS).
+    /// [`MOST_EVENTS`](crate::MOST_EVENTS), and behind them of a friction that sticks.
     pub fn event_name(&self, index: usize) -> Option<&'static str> {
-        let stop = (MOST_EVENTS - 1).checked_sub(index).and_then(|stop| self.stops.get(stop));
-        self.events.get(index).map(|event| event.name).or(stop.map(|stop| stop.name))
+        if let Some(event) = self.events.get(index) {
+            return Some(event.name);
+        }
+        let row = (MOST_EVENTS - 1).checked_sub(index)?;
+        match row.checked_sub(self.stops.len()) {
+            Some(friction) => self.frictions.get(friction).map(|friction| friction.name),
+            None => self.stops.get(row).map(|stop| stop.name),
+        }
     }
 
-    /// Refuses stops, for what sees no impact.
+    /// Refuses friction that sticks.
     ///
     /// # Errors
-    /// [`Error::Stops`].
+    /// [`Error::Sticks`].
+    pub fn refuse_sticking(&self, what: &'static str) -> Result<(), Error> {
+        match self.frictions.first() {
+            Some(friction) => Err(Error::Sticks { what, friction: friction.name }),
+            None => Ok(()),
+        }
+    }
+
+    /// The number of values along which impulses act: the gaps of stops, and behind them the ways of frictions that stick.
+    pub const fn contacts(&self) -> usize {
+        self.stops.len() + self.frictions.len()
+    }
+
+    /// Refuses stops and friction that sticks, for what sees neither impact nor sticking.
+    ///
+    /// # Errors
+    /// [`Error::Stops`], [`Error::Sticks`].
     pub fn refuse_stops(&self, what: &'static str) -> Result<(), Error> {
+        self.refuse_sticking(what)?;
         match self.stops.first() {
             Some(stop) => Err(Error::Stops { what, stop: stop.name }),
             None => Ok(()),
@@ -362,6 +399,7 @@ impl Info {
         start_pivots: &'static [Pivot],
         sampling: Sampling,
         stops: &'static [DeclaredStop],
+        frictions: &'static [DeclaredFriction],
         functions: &'static [Function],
     ) -> Self {
         Self {
@@ -383,6 +421,7 @@ impl Info {
             start_pivots,
             sampling,
             stops,
+            frictions,
             functions,
         }
     }

@@ -129,6 +129,7 @@ mod error;
 pub mod explicit;
 mod floats;
 pub mod gradients;
+mod halting;
 pub mod implicit;
 mod info;
 #[doc = include_str!("language.md")]
@@ -159,6 +160,7 @@ pub mod sketch;
 mod spare;
 mod spline;
 pub mod start;
+mod sticking;
 mod straight;
 mod system;
 mod two;
@@ -178,8 +180,8 @@ pub use derivation::{Derivation, Elimination, Formula};
 pub use dual::Dual;
 pub use error::Error;
 pub use info::{
-    Constraint, DeclaredEvent, DeclaredStop, Dimension, Direction, Function, Info, Operations, Pivot,
-    Quantity, Sampling,
+    Constraint, DeclaredEvent, DeclaredFriction, DeclaredStop, Dimension, Direction, Function, Info,
+    Operations, Pivot, Quantity, Sampling,
 };
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;

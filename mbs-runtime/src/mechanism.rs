@@ -337,7 +337,8 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// again.
     fn stop_laws(&self, _laws: &mut [Self::Real]) {}
 
-    /// Writes the gap of every stop, its rate and its second derivative with given accelerations.
+    /// Writes the gap of every stop, its rate and its second derivative with given accelerations; then the same of the way
+    /// that every friction has slid.
     fn gaps(
         &self,
         _at: &State<Self::Coordinates>,
@@ -346,7 +347,18 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     ) {
     }
 
-    /// Does something with the responses to unit impulses along the gaps of stops: of each the changes Y of the
+    /// Writes of every [friction](Info::frictions) that sticks its size while it slides, and the largest one with which it
+    /// sticks.
+    fn limits(
+        &self,
+        _at: &State<Self::Coordinates>,
+        _inputs: &Self::Inputs,
+        _reactions: &Reactions<Self::Coordinates, Self::Constraints>,
+        _limits: &mut [Self::Real],
+    ) {
+    }
+
+    /// Does something with the responses to unit impulses along the gaps of stops and the ways of frictions: of each the changes Y of the
     /// velocities and those of the multipliers μ, and ∂g/∂q,
     ///
     /// ```text

@@ -22,8 +22,10 @@
 
 use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, has, number, those};
 use crate::equations::{At, Equations};
+use crate::halting::halt;
 use crate::mechanism::growth_limit;
 use crate::pressing::held;
+use crate::sticking::{Held, Undecided, all_frictions, decide, frictions, set};
 use crate::{Error, Real, vectors};
 
 /// A start is behind a stop by more than this share of the size of the coordinates.
@@ -34,6 +36,8 @@ const LEAST_SIZE: f64 = 1e-3;
 const IN_SEQUENCE: usize = 16;
 /// A rate is 0 below this share of the terms of which it is made.
 const ROUNDING: f64 = 1e-12;
+/// Friction does not slide at a start below this share of the largest speed that the kinetic energy lets it have.
+const STILL: f64 = 1e-9;
 
 /// Vectors to compute with.
 pub struct Vectors<V, C> {
@@ -72,37 +76,35 @@ pub struct Changes<'a, T> {
     pub v: &'a mut [T],
 }
 
-/// Adds half of the impulses of rest over a step of `h` seconds to the velocities at its start. Gives the stops that push.
+/// Adds half of the impulses of rest over a step of `h` seconds to the velocities at its start, and sets the memories of
+/// frictions that break loose. Gives the stops that push and the frictions that stick.
 ///
 /// # Errors
-/// [`Error::Impact`].
+/// [`Error::Impact`], [`Error::Jammed`].
 pub fn push<T: Real>(
     equations: &dyn Equations<T>,
     (h, changes): (T, Changes<'_, T>),
     (t, q, v): (T, &[T], &mut [T]),
-    inputs: &[T],
+    inputs: &mut [T],
 ) -> Result<u32, Error> {
     let held = held(equations, inputs);
     if held == 0 {
         return Ok(0);
     }
-    let at = At { t, q, v };
-    equations.accelerations(at, inputs, changes.rows, changes.q);
-    let gaps = Gaps::of(equations, at, changes.q);
+    let still = held & all_frictions(equations.info());
+    let (at, undecided) = (At { t, q, v }, Undecided { resting: held & !still, still, breaking: 0 });
+    let Held { held, forces } = decide(equations, at, inputs, undecided, [changes.q, changes.rows])?;
     let half = T::from_f64(0.5) * h;
-    let pushing = Contacts::at(equations, (t, q), |contacts| {
-        let (_, forces) = contacts.complementary(held, &gaps.acceleration)?;
-        contacts.add(&forces.map(|force| half * force), v);
-        Some(those(contacts.stops(), |stop| number(&forces, stop) > 0.0))
-    });
-    pushing.flatten().ok_or_else(|| impact(equations, t, held))
+    Contacts::at(equations, (t, q), |contacts| contacts.add(&forces.map(|force| half * force), v));
+    Ok(those(MOST_STOPS, |row| has(held & still, row) || number(&forces, row) > 0.0))
 }
 
-/// Answers the stops at the end of a step of `h` seconds: changes all coordinates and velocities there, and sets the memories
-/// of stops. Those that have [pushed](push) before the step count as closed. Gives true if anything has changed.
+/// Answers the stops and the frictions that stick at the end of a step of `h` seconds: changes all coordinates and velocities
+/// there, and sets their memories. Stops that have [pushed](push) before the step count as closed. Gives true if anything has
+/// changed.
 ///
 /// # Errors
-/// [`Error::Impact`].
+/// [`Error::Impact`], [`Error::Jammed`].
 pub fn strike<T: Real>(
     equations: &dyn Equations<T>,
     (h, changes): (T, Changes<'_, T>),
@@ -110,7 +112,23 @@ pub fn strike<T: Real>(
     (t, [q, v]): (T, [&mut [T]; 2]),
     inputs: &mut [T],
 ) -> Result<bool, Error> {
+    let Changes { still, rows, q: of_q, v: of_v } = changes;
+    let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
+    let is_struck = strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
+    let own = Changes { still, rows, q: of_q, v: of_v };
+    Ok(halt(equations, (h, own), (pushed, before), (t, [q, v]), inputs)? || is_struck)
+}
+
+/// The same without friction.
+fn strike_stops<T: Real>(
+    equations: &dyn Equations<T>,
+    (h, changes): (T, Changes<'_, T>),
+    (pushed, before): (u32, At<'_, T>),
+    (t, [q, v]): (T, [&mut [T]; 2]),
+    inputs: &mut [T],
+) -> Result<bool, Error> {
     let count = equations.info().stops.len();
+    let pushed = pushed & !all_frictions(equations.info());
     let now = Gaps::of(equations, At { t, q, v }, changes.still);
     let closed = pushed | those(count, |stop| number(&now.gap, stop) <= 0.0);
     if closed == 0 {
@@ -127,7 +145,7 @@ pub fn strike<T: Real>(
     let ends = Ends { gap: [gap_before, now.gap], rate: [rate_before, now.rate] };
     let restitutions = restitutions(equations);
     let answered = Contacts::at(equations, (t, q), |contacts| {
-        let answer = Striking::new(&contacts, h, &ends, &restitutions, pushed).answer(closed)?;
+        let answer = Striking::new((&contacts, count), h, &ends, &restitutions, pushed).answer(closed)?;
         let shifts = contacts.solve(answer.held, &answer.gap);
         vectors::fill(changes.q, T::ZERO);
         vectors::fill(changes.v, T::ZERO);
@@ -153,6 +171,8 @@ struct Ends<T> {
 /// Stops at the end of a step.
 struct Striking<'a, T> {
     contacts: &'a Contacts<'a, T>,
+    /// The number of stops: behind them there may be frictions.
+    count: usize,
     restitutions: &'a Each<T>,
     ends: &'a Ends<T>,
     /// ġ − ġ₀
@@ -179,7 +199,7 @@ struct Answer<T> {
 
 impl<'a, T: Real> Striking<'a, T> {
     fn new(
-        contacts: &'a Contacts<'a, T>,
+        (contacts, count): (&'a Contacts<'a, T>, usize),
         h: T,
         ends: &'a Ends<T>,
         restitutions: &'a Each<T>,
@@ -196,7 +216,7 @@ impl<'a, T: Real> Striking<'a, T> {
             core::array::from_fn(|stop| if has(pushed, stop) { T::ZERO } else { of(&rest, stop) * h });
         let [before, now] = &ends.rate;
         let change = zip(now, before, |now, before| now - before);
-        Self { contacts, restitutions, ends, change, rest, shift }
+        Self { contacts, count, restitutions, ends, change, rest, shift }
     }
 
     /// The impulses at the stops that are closed, or that impulses close, one impact after the other; nothing where there
@@ -213,7 +233,7 @@ impl<'a, T: Real> Striking<'a, T> {
             let moved = zip(&impulses, shift, |impulse, shift| impulse * shift);
             let gap = zip(&ends.gap[1], &contacts.rates(&moved), |gap, change| gap + change);
             let rate = zip(&ends.rate[1], &contacts.rates(&impulses), |rate, change| rate + change);
-            closed |= those(contacts.stops(), |stop| number(&gap, stop) <= 0.0);
+            closed |= those(self.count, |stop| number(&gap, stop) <= 0.0);
             let still = self.still(&impulses);
             let closing =
                 those(MOST_STOPS, |stop| has(closed, stop) && number(&rate, stop) <= number(&still, stop));
@@ -238,7 +258,7 @@ impl<'a, T: Real> Striking<'a, T> {
                 let target = if has(held, stop) { T::ZERO } else { of(&thrown, stop) + later };
                 of(&rate, stop) - if target.to_f64() > 0.0 { target } else { T::ZERO }
             });
-            let (_, more) = contacts.complementary(closing, &short)?;
+            let (_, more) = contacts.complementary(closing, 0, &short)?;
             impulses = zip(&impulses, &more, |impulse, more| impulse + more);
         }
         None
@@ -268,22 +288,24 @@ impl<'a, T: Real> Striking<'a, T> {
     }
 }
 
-/// Sets the memories of the stops that a start rests on. The accelerations are those without stops.
+/// Sets the memories of the stops that a start rests on, and of the frictions that stick there.
 ///
 /// # Errors
-/// [`Error::Behind`], [`Error::Impact`].
+/// [`Error::Behind`], [`Error::Impact`], [`Error::Jammed`].
 pub fn begin<T: Real>(
     equations: &dyn Equations<T>,
-    h: T,
+    (h, changes): (T, Changes<'_, T>),
     at: At<'_, T>,
-    acceleration: &[T],
     inputs: &mut [T],
 ) -> Result<(), Error> {
     let info = equations.info();
-    let (count, gaps) = (info.stops.len(), Gaps::of(equations, at, acceleration));
+    let count = info.stops.len();
+    let still = slide(equations, at, changes.still, inputs);
+    equations.free_reactions(at, inputs, changes.q, changes.rows);
+    let gaps = Gaps::of(equations, at, changes.q);
     let size = BEHIND * (LEAST_SIZE + vectors::largest(info.of_bodies(at.q)).1.to_f64());
     let thrown = rebounds(&restitutions(equations), &gaps.rate);
-    let found = Contacts::at(equations, (at.t, at.q), |contacts| {
+    let settled = Contacts::at(equations, (at.t, at.q), |contacts| {
         let allowed = |stop: usize| size * contacts.slope(stop);
         if let Some(stop) = (0..count).find(|&stop| number(&gaps.gap, stop) < -allowed(stop)) {
             let name = info.stops.get(stop).map_or("", |stop| stop.name);
@@ -292,21 +314,41 @@ pub fn begin<T: Real>(
         let closed = those(count, |stop| number(&gaps.gap, stop) <= allowed(stop));
         let taken = taken(&contacts, closed, &gaps.acceleration.map(|acceleration| h * acceleration));
         let taken = taken.ok_or_else(|| impact(equations, at.t, closed))?;
-        let settled = those(count, |stop| {
+        Ok(those(count, |stop| {
             let taken = number(&taken, stop);
             has(closed, stop) && number(&gaps.rate, stop) <= taken && number(&thrown, stop) <= taken
-        });
-        let pressed = contacts.complementary(settled, &gaps.acceleration);
-        let (_, forces) = pressed.ok_or_else(|| impact(equations, at.t, settled))?;
-        Ok(those(count, |stop| number(&forces, stop) > 0.0))
+        }))
     });
-    note(equations, found.transpose()?.unwrap_or(0), &[T::ZERO; MOST_STOPS], inputs);
+    let undecided = Undecided { resting: settled.transpose()?.unwrap_or(0), still, breaking: 0 };
+    let Held { forces, .. } = decide(equations, at, inputs, undecided, [changes.q, changes.rows])?;
+    let held = those(count, |stop| number(&forces, stop) > 0.0);
+    note(equations, held, &[T::ZERO; MOST_STOPS], inputs);
     Ok(())
+}
+
+/// Sets the directions of the frictions that move; those that do not.
+fn slide<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, still: &[T], inputs: &mut [T]) -> u32 {
+    let info = equations.info();
+    let rates = Gaps::of(equations, at, still).rate;
+    let energy = equations.kinetic_energy(at).to_f64().max(0.0);
+    let own = Contacts::at(equations, (at.t, at.q), |contacts| {
+        core::array::from_fn(|row| contacts.mobility(row, row).to_f64().max(0.0))
+    });
+    let own: Each<f64> = own.unwrap_or([0.0; MOST_STOPS]);
+    let is_still = |row: usize| {
+        let fastest = Real::sqrt(2.0 * energy * own.get(row).copied().unwrap_or(0.0));
+        number(&rates, row).abs() <= STILL * fastest
+    };
+    for (row, _) in frictions(info).filter(|(row, _)| !is_still(*row)) {
+        let direction = if number(&rates, row) > 0.0 { 1.0 } else { -1.0 };
+        set(info, inputs, row, (direction, T::ZERO));
+    }
+    those(MOST_STOPS, |row| has(all_frictions(info), row) && is_still(row))
 }
 
 /// The change of the rate of each gap in a step by the force at its own stop; `change` is that of all rates without stops.
 fn taken<T: Real>(contacts: &Contacts<'_, T>, closed: u32, change: &Each<T>) -> Option<Each<T>> {
-    let (_, impulses) = contacts.complementary(closed, change)?;
+    let (_, impulses) = contacts.complementary(closed, 0, change)?;
     Some(core::array::from_fn(|stop| contacts.mobility(stop, stop) * of(&impulses, stop)))
 }
 

@@ -1,14 +1,18 @@
-//! The forces at stops that are rested on.
+//! The forces at stops that are rested on, and of frictions that stick.
 
 use crate::Real;
 use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_STOPS, bit, those};
 use crate::equations::{At, Equations};
+use crate::sticking::frictions;
 
-/// The stops that are rested on.
+/// The stops that are rested on, and the frictions that stick.
 pub(crate) fn held<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> u32 {
-    let stops = equations.info().stops;
-    let memory = |stop: usize| inputs.get(stops.get(stop)?.memory).map(|held| held.to_f64());
-    those(stops.len(), |stop| memory(stop).is_some_and(|held| held > 0.5))
+    let info = equations.info();
+    let memory = |stop: usize| inputs.get(info.stops.get(stop)?.memory).map(|held| held.to_f64());
+    let resting = those(info.stops.len(), |stop| memory(stop).is_some_and(|held| held > 0.5));
+    let is_sticking = |memory: usize| inputs.get(memory).is_some_and(|it| it.to_f64().abs() < 0.5);
+    let sticking = frictions(info).filter(|(_, memory)| is_sticking(*memory));
+    sticking.fold(resting, |held, (row, _)| held | bit(row))
 }
 
 /// Adds to accelerations what the stops do that are rested on, and to multipliers, if they are given; the pivot growth
@@ -41,11 +45,7 @@ pub(crate) fn pressed<T: Real>(
         let forces = contacts.solve(held, &gaps.acceleration);
         contacts.add(&forces, acceleration);
         if let Some(multipliers) = multipliers {
-            for (stop, &force) in forces.iter().enumerate().take(contacts.stops()) {
-                for (to, y) in multipliers.iter_mut().zip(contacts.reactions(stop)) {
-                    *to = *to + force * *y;
-                }
-            }
+            contacts.react(&forces, multipliers);
         }
         (contacts.growth(), forces)
     });

@@ -76,6 +76,7 @@ impl Pendulums {
             Sampling::NONE,
             &[],
             &[],
+            &[],
         );
         Self { lengths: lengths.to_vec(), info }
     }
@@ -116,6 +117,9 @@ impl Equations<f64> for Pendulums {
         for (i, l) in self.lengths.iter().enumerate() {
             phi_dot[i] = (q[2 * i] * v[2 * i] + q[2 * i + 1] * v[2 * i + 1]) / l;
         }
+    }
+    fn free_reactions(&self, _: At<'_, f64>, _: &[f64], _: &mut [f64], _: &mut [f64]) -> f64 {
+        f64::NAN
     }
     // no clocks
     fn clock(&self, _: usize) -> [f64; 2] {

@@ -63,10 +63,12 @@ pub enum Results {
     Clocks,
     /// Restitution and settling of every stop.
     Stops,
-    /// The gap of every stop, its rate and its second derivative.
+    /// The gap of every stop and the way that every friction has slid, its rate and its second derivative.
     Gaps,
-    /// Of every stop what a unit impulse along its gap does to velocities and multipliers, and the slopes of its gap; then
-    /// how all impulses change the rates of the gaps, and the pivot growth.
+    /// The size of every friction that sticks while it slides, and the largest one with which it sticks.
+    Limits,
+    /// Of each of these what a unit impulse along it does to velocities and multipliers, and its slopes; then how all
+    /// impulses change their rates, and the pivot growth.
     Contacts,
     /// One number per memory that a clock sets.
     Samples,
@@ -197,9 +199,11 @@ functions! {
     Switches = "switches"(Time, Positions, Velocities, Inputs) -> [result: Switches], [Adaptive, Whole];
     /// The restitution of every stop, and the share of its longest flight below which it is not left again.
     Stops = "stop_laws"() -> [result: Stops], [Stopping, Whole];
-    /// The gap of every stop, its rate and its second derivative with given accelerations.
+    /// The gap of every stop and the way that every friction has slid, its rate and its second derivative with given accelerations.
     Gaps = "gaps"(Time, Positions, Velocities, Reactions) -> [result: Gaps], [Counted, Stopping];
-    /// Y and μ of M Y + Φ_qᵀ μ = ∂g/∂q, Φ_q Y = 0 for the gap g of every stop, and W = ∂g/∂q Y.
+    /// The size of every friction that sticks while it slides, and the largest one with which it sticks.
+    Limits = "limits"(Time, Positions, Velocities, Inputs, Reactions) -> [result: Limits], [Counted, Stopping];
+    /// Y and μ of M Y + Φ_qᵀ μ = ∂g/∂q, Φ_q Y = 0 for each of these g, and W = ∂g/∂q Y.
     Contacts = "contacts"(Time, Positions) -> [result: Contacts], [Counted, Stopping];
     /// The period and the offset of every clock in s.
     Clocks = "clocks"() -> [result: Clocks], [Sampled, Whole];

@@ -215,6 +215,8 @@ impl<D: Dynamics> Equations<D::Real> for Driven<D> {
         constrained(feedback: &[D::Real], a: &mut [D::Real]) -> D::Real;
         implicit(shift: D::Real, predicted: &[D::Real], a: &mut [D::Real]) -> D::Real;
         accelerations(feedback: &[D::Real], a: &mut [D::Real]) -> D::Real;
+        free_reactions(a: &mut [D::Real], multipliers: &mut [D::Real]) -> D::Real;
+        limits(reactions: [&[D::Real]; 2], limits: &mut [D::Real]);
         switches(values: &mut [D::Real]);
     }
     unchanged! {

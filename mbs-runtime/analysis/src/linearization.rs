@@ -162,6 +162,7 @@ pub fn linearize(
     ports: &Ports<'_>,
 ) -> Result<Linearization, Error> {
     point.check(mechanism)?;
+    mechanism.info().refuse_sticking("a linear system")?;
     match rested_on(mechanism, point)?[..] {
         [] if mechanism.info().stops.is_empty() || !ports.parameters.is_empty() => {
             on_its_rows(mechanism, point, ports)

@@ -42,7 +42,7 @@ impl<'a, T: Real> Resting<'a, T> {
 
     /// Gap, rate and second derivative of the stops that are rested on.
     fn gaps(&self, at: At<'_, T>, acceleration: &[T]) -> Vec<[T; 3]> {
-        let mut all = vec![T::ZERO; 3 * self.info.stops.len()];
+        let mut all = vec![T::ZERO; 3 * self.info.contacts()];
         self.free.gaps(at, acceleration, &mut all);
         let of = |stop: &usize| [all[3 * stop], all[3 * stop + 1], all[3 * stop + 2]];
         self.stops.iter().map(of).collect()
@@ -187,6 +187,20 @@ impl<T: Real> Equations<T> for Resting<'_, T> {
 
     fn gaps(&self, at: At<'_, T>, acceleration: &[T], gaps: &mut [T]) {
         self.free.gaps(at, acceleration, gaps);
+    }
+
+    fn limits(&self, at: At<'_, T>, inputs: &[T], reactions: [&[T]; 2], limits: &mut [T]) {
+        self.free.limits(at, inputs, reactions, limits);
+    }
+
+    fn free_reactions(
+        &self,
+        at: At<'_, T>,
+        inputs: &[T],
+        acceleration: &mut [T],
+        multipliers: &mut [T],
+    ) -> T {
+        self.solved(at, &self.resting_inputs(inputs), &vec![T::ZERO; multipliers.len()], acceleration).0
     }
 
     fn clock(&self, clock: usize) -> [T; 2] {

@@ -17,12 +17,13 @@ const MOST_SETS: usize = 256;
 /// The gaps of a position, and the size of what counts.
 fn gaps(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
     let still = vec![0.0; q.len()];
-    let mut gaps = vec![0.0; 3 * mechanism.info().stops.len()];
+    let mut gaps = vec![0.0; 3 * mechanism.info().contacts()];
     mechanism.gaps(At { t, q, v: &still }, &still, &mut gaps);
     let declared = mechanism.info().coordinates.iter().map(|q| q.default);
     let size = q.iter().copied().chain(declared).fold(0.0_f64, |size, x| size.max(x.abs()));
     // each has its rate and its second derivative behind it
-    (gaps.into_iter().step_by(3).collect(), CLOSED * size)
+    let stops = mechanism.info().stops.len();
+    (gaps.into_iter().step_by(3).take(stops).collect(), CLOSED * size)
 }
 
 /// A position that was found on a set of stops.

@@ -4,7 +4,7 @@ use std::any::Any;
 
 use mbs_codegen::FunctionId;
 use mbs_runtime::__private::{next_corner, worst};
-use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials, press};
+use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials, hold, press};
 use mbs_runtime::{Derivation, Error, Gains, Info, Real, Sketch, Switch};
 
 use crate::Live;
@@ -124,9 +124,31 @@ impl<T: Real> Equations<T> for Live<T> {
         self.call(FunctionId::Gaps, &given, [gaps]);
     }
 
+    fn limits(&self, at: At<'_, T>, inputs: &[T], [a, lambda]: [&[T]; 2], limits: &mut [T]) {
+        let given = Arguments {
+            inputs: single(inputs),
+            acceleration: single(a),
+            multipliers: single(lambda),
+            ..state(at)
+        };
+        self.call(FunctionId::Limits, &given, [limits]);
+    }
+
+    fn free_reactions(
+        &self,
+        at: At<'_, T>,
+        inputs: &[T],
+        acceleration: &mut [T],
+        multipliers: &mut [T],
+    ) -> T {
+        let no_feedback = vec![T::ZERO; self.declared_info().constraints.len()];
+        let given = Arguments { inputs: single(inputs), feedback: single(&no_feedback), ..state(at) };
+        self.solve(|growth| self.call(FunctionId::Reactions, &given, [acceleration, multipliers, growth]))
+    }
+
     fn contacts(&self, t: T, q: &[T], what: &mut dyn FnMut(&[T])) {
         let info = self.declared_info();
-        let (stops, each) = (info.stops.len(), 2 * info.coordinates.len() + info.constraints.len());
+        let (stops, each) = (info.contacts(), 2 * info.coordinates.len() + info.constraints.len());
         if stops > 0 {
             let mut values = vec![T::from_f64(f64::NAN); stops * (each + stops) + 1];
             self.call(FunctionId::Contacts, &position(t, q), [&mut values]);
@@ -161,10 +183,7 @@ impl<T: Real> Equations<T> for Live<T> {
 
 impl<T: Real> Described<T> for Live<T> {
     fn reactions(&self, at: At<'_, T>, inputs: &[T], acceleration: &mut [T], multipliers: &mut [T]) -> T {
-        let no_feedback = vec![T::ZERO; self.declared_info().constraints.len()];
-        let given = Arguments { inputs: single(inputs), feedback: single(&no_feedback), ..state(at) };
-        let growth = self
-            .solve(|growth| self.call(FunctionId::Reactions, &given, [acceleration, multipliers, growth]));
+        let growth = self.free_reactions(at, inputs, acceleration, multipliers);
         growth + press(self, at, inputs, acceleration, Some(multipliers))
     }
 
@@ -175,6 +194,14 @@ impl<T: Real> Described<T> for Live<T> {
         [acceleration, multipliers]: [&[T]; 2],
         outputs: &mut [T],
     ) {
+        let mut own = Vec::new();
+        let inputs = if self.declared_info().frictions.is_empty() {
+            inputs
+        } else {
+            own.extend_from_slice(inputs);
+            hold(self, at, &mut own, [&mut acceleration.to_vec(), &mut multipliers.to_vec()]);
+            &own
+        };
         let [acceleration, multipliers] = [acceleration, multipliers].map(single);
         let given = Arguments { inputs: single(inputs), acceleration, multipliers, ..state(at) };
         self.call(FunctionId::Outputs, &given, [outputs]);

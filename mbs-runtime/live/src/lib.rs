@@ -71,7 +71,7 @@ mod transposed;
 mod words;
 
 pub use mbs_codegen::compiled::Feedback;
-pub use mbs_codegen::targets::{CSources, Experiment, Fmu, RUN_SCRIPT, Scalar, Version as FmiVersion, Wasm};
+pub use mbs_codegen::targets::{CSources, Experiment, Fmu, RUN_SCRIPTS, Scalar, Version as FmiVersion, Wasm};
 
 pub use error::{Error, Location, Note, Problem, Warnings};
 pub use lanes::LANES;

@@ -12,8 +12,8 @@ use mbs_codegen::Compiled;
 use mbs_codegen::compiled::{self, Count, Crossing};
 use mbs_runtime::__private::{Segment, Spline};
 use mbs_runtime::{
-    Constraint, DeclaredEvent, DeclaredStop, Derivation, Dimension, Direction, Function, Info, Knots,
-    Operations, Pivot, Quantity, Sampling, Sketch, Switch,
+    Constraint, DeclaredEvent, DeclaredFriction, DeclaredStop, Derivation, Dimension, Direction, Function,
+    Info, Knots, Operations, Pivot, Quantity, Sampling, Sketch, Switch,
 };
 use mbs_symbolic::{Block, units};
 
@@ -109,6 +109,7 @@ fn info(compiled: &Compiled) -> Info {
         leak(compiled.start_pivots.iter().map(pivot)),
         sampling(&compiled.sampling),
         leak(compiled.stops.iter().map(stop)),
+        leak(compiled.frictions.iter().map(friction)),
         leak(compiled.counts().into_iter().map(|count| function(compiled, &count))),
     )
 }
@@ -138,6 +139,10 @@ fn stop(stop: &compiled::Stop) -> DeclaredStop {
         memory: stop.memory,
         formula: text(&stop.formula),
     }
+}
+
+fn friction(compiled::Friction { name, memory, limits, .. }: &compiled::Friction) -> DeclaredFriction {
+    DeclaredFriction { name: text(name), memory: *memory, limits: limits.each_ref().map(|limit| text(limit)) }
 }
 
 fn event(event: &compiled::Event) -> DeclaredEvent {

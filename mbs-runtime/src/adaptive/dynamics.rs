@@ -105,7 +105,7 @@ pub trait Dynamics: Clone + Send {
 
     /// True if the mechanism has stops.
     fn has_stops(&self) -> bool {
-        !self.equations().info().stops.is_empty()
+        self.equations().info().contacts() > 0
     }
 
     /// Adds to accelerations what the stops do that are rested on; the pivot growth of their responses.
@@ -212,7 +212,7 @@ impl<M: Mechanism> Dynamics for M {
     }
 
     fn has_stops(&self) -> bool {
-        !M::INFO.stops.is_empty()
+        M::INFO.contacts() > 0
     }
 
     #[inline(always)]

@@ -164,7 +164,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 impl<D: Dynamics> Watched<'_, D> {
     /// The places of the values, and those of stops, with their bits.
     pub(super) fn bits(&self, dynamics: &D) -> impl Iterator<Item = (usize, u64)> + use<D> {
-        gaps::watched(self.count, dynamics.equations().info().stops.len())
+        gaps::watched(self.count, dynamics.equations().info().contacts())
     }
 
     /// Which changes of sign of a value count.

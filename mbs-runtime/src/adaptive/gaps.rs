@@ -3,11 +3,13 @@
 use super::control::Tolerances;
 use super::dynamics::Dynamics;
 use super::effort::Effort;
+use super::jump::{is_idle, margins};
 use crate::Real;
 use crate::contact::{Each, Gaps, MOST_STOPS, bit, has, those};
 use crate::equations::{At, Equations};
 use crate::info::{Direction, MOST_EVENTS};
-use crate::pressing::{held, pressed};
+use crate::pressing::held;
+use crate::sticking::{all_frictions, direction};
 use crate::vectors;
 
 /// The memory of a run of its stops.
@@ -58,10 +60,11 @@ pub(super) const fn place(stop: usize) -> usize {
 /// The stop that is watched in a place, if it is one.
 pub(super) fn stop_in<T: Real>(equations: &dyn Equations<T>, place: usize) -> Option<usize> {
     let stop = (MOST_EVENTS - 1).checked_sub(place)?;
-    (stop < equations.info().stops.len()).then_some(stop)
+    (stop < equations.info().contacts()).then_some(stop)
 }
 
-/// The watched value of a stop: its gap while it is open, the force at it while it is rested on.
+/// The watched value of a stop: its gap while it is open, the force at it while it is rested on; and of a friction: its speed
+/// in the direction in which it slides, and by how much its force is below what it can be while it sticks.
 pub(super) fn value<D: Dynamics>(
     dynamics: &D,
     inputs: &D::Inputs,
@@ -71,15 +74,18 @@ pub(super) fn value<D: Dynamics>(
     let equations = dynamics.equations();
     let mut inputs = dynamics.inputs_at(at.t, inputs);
     dynamics.with_inputs(&mut inputs, |inputs| {
-        let (mut a, feedback) = (dynamics.declared_start().1, dynamics.no_feedback());
+        let mut a = dynamics.declared_start().1;
         vectors::fill(a.as_mut(), D::Real::default());
-        let values = if has(held(equations, inputs), stop) {
-            equations.accelerations(at, inputs, feedback.as_ref(), a.as_mut());
-            pressed(equations, at, inputs, a.as_mut(), None).1
-        } else {
-            Gaps::of(equations, at, a.as_ref()).gap
-        };
-        values.get(stop).copied().unwrap_or_default()
+        let value = |of: &Each<D::Real>| of.get(stop).copied().unwrap_or_default();
+        if has(held(equations, inputs), stop) {
+            return value(&margins(dynamics, at, inputs, &mut a));
+        }
+        let gaps = Gaps::of(equations, at, a.as_ref());
+        match has(all_frictions(equations.info()), stop) {
+            true if is_idle(dynamics, at, inputs, stop) => D::Real::from_f64(1.0),
+            true => D::Real::from_f64(direction(equations.info(), inputs, stop)) * value(&gaps.rate),
+            false => value(&gaps.gap),
+        }
     })
 }
 

@@ -5,7 +5,10 @@ use super::gaps::Stopping;
 use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, number, those};
 use crate::equations::At;
 use crate::pressing::{held, pressed};
-use crate::{Real, vectors};
+use crate::sticking::{
+    Held, Limits, Undecided, all_frictions, decide, direction, frictions, set, unanswered,
+};
+use crate::{Error, Real, vectors};
 
 /// A gap below this share of the size of the coordinates is closed,
 const CLOSED: f64 = 1e-12;
@@ -25,8 +28,8 @@ const LOW: f64 = 1e-12;
 /// A state at stops: what a jump starts from, and what it leads to.
 pub(super) struct Jump<'a, D: Dynamics> {
     pub dynamics: &'a D,
-    /// With the memories of before.
-    pub inputs: &'a [D::Real],
+    /// With the memories of before, and of the frictions that are decided.
+    pub inputs: &'a mut [D::Real],
     pub t: D::Real,
     pub q: D::Coordinates,
     pub v: D::Coordinates,
@@ -43,7 +46,7 @@ impl<D: Dynamics> Jump<'_, D> {
         self.dynamics.equations().info().stops.len()
     }
 
-    /// The gaps, with the accelerations that there are without stops.
+    /// The gaps, with the accelerations that there are without stops and without friction that sticks.
     pub fn gaps(&mut self) -> Gaps<D::Real> {
         let Self { dynamics, inputs, t, q, v, a } = self;
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
@@ -52,22 +55,23 @@ impl<D: Dynamics> Jump<'_, D> {
         Gaps::of(equations, at, a.as_ref())
     }
 
-    /// The stops that are rested on and pull, those that push, and open ones that are closed and do not open.
+    /// The stops that are rested on and pull and the frictions that hold more than they can or slide against their direction,
+    /// the stops that push, and open ones that are closed and do not open.
     pub fn look(&mut self, size: f64) -> [u32; 3] {
+        let slopes = self.slopes();
         let Self { dynamics, inputs, t, q, v, a } = self;
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
         let equations = dynamics.equations();
         let held = held(equations, inputs);
-        let mut forces = [D::Real::default(); MOST_STOPS];
-        if held != 0 {
-            equations.accelerations(at, inputs, dynamics.no_feedback().as_ref(), a.as_mut());
-            forces = pressed(equations, at, inputs, a.as_mut(), None).1;
-        }
+        let margins = margins(*dynamics, at, inputs, a);
         let gaps = Gaps::of(equations, at, a.as_ref());
-        let slopes = self.slopes();
         let count = equations.info().stops.len();
-        let pulls = those(count, |stop| has(held, stop) && number(&forces, stop) < 0.0);
-        let pushes = those(count, |stop| has(held, stop) && number(&forces, stop) > 0.0);
+        let info = equations.info();
+        let pulls = those(info.contacts(), |row| {
+            let against = direction(info, inputs, row) * number(&gaps.rate, row);
+            if has(held, row) { number(&margins, row) < 0.0 } else { against < 0.0 }
+        });
+        let pushes = those(count, |stop| has(held, stop) && number(&margins, stop) > 0.0);
         let closed = those(count, |stop| {
             let least = CLOSED * size * number(&slopes, stop);
             !has(held, stop) && number(&gaps.gap, stop) <= least && number(&gaps.rate, stop) <= 0.0
@@ -106,11 +110,13 @@ impl<D: Dynamics> Jump<'_, D> {
         still
     }
 
-    /// The stops of a set that move at more than the error of a step.
+    /// The stops and frictions of a set that move at more than the error of a step.
     pub fn hit(&mut self, held: u32, size: f64) -> u32 {
         let gaps = self.gaps();
         let still = self.still(&gaps.acceleration, size).map(|still| JUMPS * still);
-        those(self.count(), |stop| has(held, stop) && !is_still(&gaps.rate, &still, stop))
+        those(self.dynamics.equations().info().contacts(), |stop| {
+            has(held, stop) && !is_still(&gaps.rate, &still, stop)
+        })
     }
 
     /// Moves velocities, or positions, so that what is given of the gaps of a set becomes 0.
@@ -128,11 +134,47 @@ impl<D: Dynamics> Jump<'_, D> {
     }
 }
 
+/// The forces at stops that are rested on, and by how much those of frictions that stick are below what they can be.
+pub(super) fn margins<D: Dynamics>(
+    dynamics: &D,
+    at: At<'_, D::Real>,
+    inputs: &[D::Real],
+    a: &mut D::Coordinates,
+) -> Each<D::Real> {
+    let (equations, mut lambda) = (dynamics.equations(), dynamics.no_feedback());
+    if held(equations, inputs) == 0 {
+        vectors::fill(a.as_mut(), D::Real::default());
+        return [D::Real::default(); MOST_STOPS];
+    }
+    equations.free_reactions(at, inputs, a.as_mut(), lambda.as_mut());
+    let (_, mut forces) = pressed(equations, at, inputs, a.as_mut(), Some(lambda.as_mut()));
+    let limits = Limits::of(equations, at, inputs, [a.as_ref(), lambda.as_ref()]);
+    for (row, _) in frictions(equations.info()) {
+        if let Some(force) = forces.get_mut(row) {
+            *force = limits.sticking(row) - force.abs();
+        }
+    }
+    forces
+}
+
+/// True of friction that slides and has no force: its direction does not matter.
+pub(super) fn is_idle<D: Dynamics>(
+    dynamics: &D,
+    at: At<'_, D::Real>,
+    inputs: &[D::Real],
+    row: usize,
+) -> bool {
+    let (mut a, mut lambda) = (dynamics.declared_start().1, dynamics.no_feedback());
+    dynamics.equations().free_reactions(at, inputs, a.as_mut(), lambda.as_mut());
+    let limits = Limits::of(dynamics.equations(), at, inputs, [a.as_ref(), lambda.as_ref()]);
+    limits.sticking(row).to_f64() <= 0.0
+}
+
 /// Where a jump leads.
 pub(super) struct Outcome<T> {
-    /// The stops that are rested on.
+    /// The stops that are rested on, and the frictions that stick.
     pub held: u32,
-    /// The stops that are closed.
+    /// The stops that are closed, and the frictions that do not move.
     pub closed: u32,
     /// Λ
     pub impulses: Each<T>,
@@ -142,29 +184,37 @@ pub(super) struct Outcome<T> {
 
 impl<D: Dynamics> Jump<'_, D> {
     /// The gaps, with accelerations that the stops of a set have a part in which are closed and still.
-    fn pressed(&mut self, closed: u32, size: f64) -> Result<Gaps<D::Real>, usize> {
+    fn pressed(&mut self, closed: u32, size: f64) -> Result<Gaps<D::Real>, Error> {
         let mut gaps = self.gaps();
         let still = self.still(&gaps.acceleration, size);
         let resting = those(self.count(), |stop| has(closed, stop) && is_still(&gaps.rate, &still, stop));
         let solved = self.contacts(|contacts| {
-            let (_, forces) = contacts.complementary(resting, &gaps.acceleration)?;
+            let (_, forces) = contacts.complementary(resting, 0, &gaps.acceleration)?;
             Some(contacts.rates(&forces))
         });
-        let change = solved.flatten().ok_or(first(closed))?;
+        let change = solved.flatten().ok_or_else(|| self.unanswered(closed))?;
         for (to, change) in gaps.acceleration.iter_mut().zip(change) {
             *to = *to + change;
         }
         Ok(gaps)
     }
 
-    /// Answers impacts and decides which stops are rested on. The stop at fault, where nothing does.
+    /// Nothing answers a set of stops.
+    fn unanswered(&self, set: u32) -> Error {
+        unanswered(self.dynamics.equations().info(), self.t.to_f64(), set)
+    }
+
+    /// Answers impacts and decides which stops are rested on, and which frictions stick.
+    ///
+    /// # Errors
+    /// [`Error::Impact`], [`Error::Jammed`].
     pub fn lead(
         &mut self,
         reached: u32,
         held: u32,
         longest_step: f64,
         stopping: &mut Stopping,
-    ) -> Result<Outcome<D::Real>, usize> {
+    ) -> Result<Outcome<D::Real>, Error> {
         let (count, gaps) = (self.count(), self.gaps());
         stopping.size = stopping.size.max(self.size());
         let (size, slopes) = (CLOSED * stopping.size, self.slopes());
@@ -172,7 +222,8 @@ impl<D: Dynamics> Jump<'_, D> {
             let soon = SOON * longest_step * (-number(&gaps.rate, stop)).max(0.0);
             number(&gaps.gap, stop) <= size * number(&slopes, stop) + soon
         };
-        let closed = held | reached | those(count, is_closed);
+        let friction = all_frictions(self.dynamics.equations().info());
+        let closed = (held | reached) & !friction | those(count, is_closed);
         let still = self.still(&gaps.acceleration, stopping.size);
         let (mut impulses, mut flight) = ([D::Real::default(); MOST_STOPS], f64::INFINITY);
         let mut is_impact = false;
@@ -198,15 +249,43 @@ impl<D: Dynamics> Jump<'_, D> {
         let stuck = core::mem::take(&mut stopping.stuck);
         let rests = |stop: usize| is_still(&rates, &still, stop) || has(stuck, stop);
         let resting = those(count, |stop| has(closed & !pulling, stop) && rests(stop));
+        let found = if is_impact { 0 } else { reached };
+        let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);
+        let halted = those(MOST_STOPS, |row| has(friction & found & !held, row) && is_halted(row));
+        let not_moving = self.slide(halted, &rates, &still);
         self.clear(resting, &gaps.gap, true);
         let rates = self.gaps().rate;
-        self.clear(resting, &rates, false);
-        let accelerations = self.gaps().acceleration;
-        let solved = self.contacts(|contacts| contacts.complementary(resting, &accelerations));
-        let (held, _) = solved.flatten().ok_or(first(closed))?;
+        self.clear(resting | not_moving, &rates, false);
+        let breaking = found & held & !stuck;
+        let Held { held, .. } = self.decide(Undecided { resting, still: not_moving, breaking })?;
         stopping.kept = resting & stuck & !held;
         let held = held | resting & stuck;
+        let closed = closed | not_moving;
         Ok(Outcome { held, closed, impulses, flight })
+    }
+
+    /// Sets the directions of the frictions that move; those that do not, with those that have come to a halt. One that has
+    /// just broken loose keeps its direction.
+    fn slide(&mut self, halted: u32, rates: &Each<D::Real>, still: &Each<f64>) -> u32 {
+        let info = self.dynamics.equations().info();
+        let mut not_moving = 0;
+        for (row, _) in frictions(info) {
+            let is_still = is_still(rates, still, row);
+            if has(halted, row) || is_still && direction(info, self.inputs, row) == 0.0 {
+                not_moving |= bit(row);
+            } else if !is_still {
+                let direction = if number(rates, row) > 0.0 { 1.0 } else { -1.0 };
+                set(info, self.inputs, row, (direction, D::Real::default()));
+            }
+        }
+        not_moving
+    }
+
+    fn decide(&mut self, undecided: Undecided) -> Result<Held<D::Real>, Error> {
+        let Self { dynamics, inputs, t, q, v, a } = self;
+        let mut lambda = dynamics.no_feedback();
+        let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
+        decide(dynamics.equations(), at, inputs, undecided, [a.as_mut(), lambda.as_mut()])
     }
 
     /// Changes velocities by the impulses of an impact at stops that close.
@@ -215,7 +294,7 @@ impl<D: Dynamics> Jump<'_, D> {
         closed: u32,
         rates: &Each<D::Real>,
         (mut settled, stopping): (u32, &mut Stopping),
-    ) -> Result<(Each<D::Real>, f64), usize> {
+    ) -> Result<(Each<D::Real>, f64), Error> {
         let equations = self.dynamics.equations();
         let count = equations.info().stops.len();
         let mut laws = [D::Real::default(); 2 * MOST_STOPS];
@@ -232,12 +311,12 @@ impl<D: Dynamics> Jump<'_, D> {
             });
             let before = self.v.clone();
             let solved = self.contacts(|contacts| {
-                let (_, impulses) = contacts.complementary(closed, &b)?;
+                let (_, impulses) = contacts.complementary(closed, 0, &b)?;
                 let mut after = before.clone();
                 contacts.add(&impulses, after.as_mut());
                 Some((impulses, after))
             });
-            let (impulses, after) = solved.flatten().ok_or(first(closed))?;
+            let (impulses, after) = solved.flatten().ok_or_else(|| self.unanswered(closed))?;
             self.v = after;
             let thrown = self.pressed(closed, stopping.size)?;
             let (mut more, mut shortest) = (0, f64::INFINITY);
@@ -264,11 +343,6 @@ impl<D: Dynamics> Jump<'_, D> {
 /// True if a gap does not move.
 fn is_still<T: Real>(rates: &Each<T>, still: &Each<f64>, stop: usize) -> bool {
     number(rates, stop).abs() <= number(still, stop)
-}
-
-/// The first stop of a set.
-fn first(set: u32) -> usize {
-    set.trailing_zeros() as usize
 }
 
 /// The time in s until a gap that opens is closed again, and its largest value until then, by its second derivative.

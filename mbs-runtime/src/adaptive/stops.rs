@@ -8,8 +8,9 @@ use super::events::{Happened, Watched};
 use super::gaps::{Stopping, among, watched_of};
 use super::jump::{Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
-use crate::contact::{bit, has, those};
+use crate::contact::{MOST_STOPS, bit, has, those};
 use crate::pressing::held;
+use crate::sticking::{all_frictions, direction, frictions, set};
 use crate::{Error, Real};
 
 /// A start is behind a stop by more than this share of the size of the coordinates.
@@ -24,9 +25,9 @@ const SHORT: f64 = 1e-4;
 const MOST_LOOKS: u8 = 8;
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
-    /// The number of stops.
+    /// The number of stops and of frictions that stick.
     fn stop_count(&self) -> usize {
-        self.dynamics.equations().info().stops.len()
+        self.dynamics.equations().info().contacts()
     }
 
     /// Looks for the first stop that was reached in the last step, where nothing else is watched.
@@ -99,7 +100,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if self.stop_count() == 0 {
             return Ok(());
         }
-        let t = self.now.t.to_f64();
+        let (t, stops) = (self.now.t.to_f64(), self.dynamics.equations().info().stops);
         let size = self.with_jump(|jump| jump.size());
         self.stopping.size = self.stopping.size.max(size);
         let size = BEHIND * self.stopping.size;
@@ -107,9 +108,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let allowed = slopes.map(|slope| size * slope);
         let behind = self.with_jump(|jump| {
             let gaps = jump.gaps().gap.map(Real::to_f64);
-            gaps.into_iter().zip(allowed).enumerate().find(|(_, (gap, allowed))| *gap < -*allowed)
+            gaps.into_iter()
+                .zip(allowed)
+                .enumerate()
+                .take(stops.len())
+                .find(|(_, (gap, allowed))| *gap < -*allowed)
         });
-        let stops = self.dynamics.equations().info().stops;
         if let Some((stop, (gap, _))) = behind {
             let stop = stops.get(stop).map_or("", |stop| stop.name);
             return Err(Error::Behind { t, stop, gap });
@@ -118,7 +122,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             let gaps = jump.gaps().gap.map(Real::to_f64);
             those(stops.len(), |stop| gaps.get(stop) <= allowed.get(stop))
         });
-        if touched == 0 { Ok(()) } else { self.jump_at(touched) }
+        let has_friction = self.dynamics.equations().info().contacts() > stops.len();
+        if touched == 0 && !has_friction { Ok(()) } else { self.jump_at(touched) }
     }
 
     /// Goes back to where the last step began if that was too long to see what gaps do in it; true if it does.
@@ -159,8 +164,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             }
             let hit = jump.hit(held, size);
             if hit == 0 {
-                let gaps = jump.gaps().gap;
-                jump.clear(held, &gaps, true);
+                let (gaps, info) = (jump.gaps().gap, jump.dynamics.equations().info());
+                jump.clear(held & !all_frictions(info), &gaps, true);
                 let rates = jump.gaps().rate;
                 jump.clear(held, &rates, false);
             }
@@ -191,12 +196,14 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let found = self.with_jump(|jump| {
             let held = held(jump.dynamics.equations(), jump.inputs);
             let outcome = jump.lead(reached, held, longest, &mut stopping)?;
-            Ok((jump.q.clone(), jump.v.clone(), outcome))
+            let info = jump.dynamics.equations().info();
+            let mut directions = [0.0; MOST_STOPS];
+            for (of, (row, _)) in directions.iter_mut().zip(frictions(info)) {
+                *of = direction(info, jump.inputs, row);
+            }
+            Ok((jump.q.clone(), jump.v.clone(), outcome, directions))
         });
-        let (q, v, Outcome { held: now_held, closed, impulses, flight }) = found.map_err(|stop: usize| {
-            let stops = self.dynamics.equations().info().stops;
-            Error::Impact { t: self.now.t.to_f64(), stop: stops.get(stop).map_or("", |stop| stop.name) }
-        })?;
+        let (q, v, Outcome { held: now_held, closed, impulses, flight }, directions) = found?;
         self.stopping = stopping;
         // a step over many flights would round the first one away
         self.control.next = self.control.next.min(FLIGHTS * flight);
@@ -216,11 +223,15 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                     *memory = *memory + impulse;
                 }
             }
+            let info = dynamics.equations().info();
+            for (direction, (row, _)) in directions.into_iter().zip(frictions(info)) {
+                set(info, inputs, row, (direction, D::Real::default()));
+            }
         });
         *before = now.clone();
         self.between.begin(false);
         let Happened { all, rising, due, judged, turned, .. } = self.happened;
-        let ours = watched_of(those(stops.len(), |_| true));
+        let ours = watched_of(those(dynamics.equations().info().contacts(), |_| true));
         // an open stop that is closed still is left from its event; the force at another one has not been looked at
         let left = watched_of(closed & !now_held);
         self.happened = Happened {

@@ -135,11 +135,9 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
         if !dynamics.has_stops() {
             return Ok(());
         }
-        let (at, none) = (At { t: now.t, q: q.as_ref(), v: v.as_ref() }, dynamics.no_feedback());
-        let mut acceleration = q.clone();
+        let (at, mut vectors) = (At { t: now.t, q: q.as_ref(), v: v.as_ref() }, vectors(dynamics));
         dynamics.with_inputs(inputs, |inputs| {
-            dynamics.equations().accelerations(at, inputs, none.as_ref(), acceleration.as_mut());
-            moreau::begin(dynamics.equations(), *step, at, acceleration.as_ref(), inputs)
+            moreau::begin(dynamics.equations(), (*step, vectors.changes()), at, inputs)
         })
     }
 

@@ -115,6 +115,17 @@ impl fmt::Display for Error {
                 "{what} does not see the impacts of the stop `{stop}`; runs to a tolerance by an explicit pair do, as with \
                  `--rtol 1e-8`"
             ),
+            Self::Sticks { what, friction } => write!(
+                f,
+                "{what} does not see where the friction `{friction}` sticks; runs do, with constant steps and to a tolerance by \
+                 an explicit pair"
+            ),
+            Self::Jammed { t, friction } => write!(
+                f,
+                "at t = {t} s the friction `{friction}` neither sticks nor slides: several that press on each other, or one \
+                 that jams, as its coefficient times its reaction grows with itself",
+                t = Shown(t)
+            ),
             Self::Behind { t, stop, gap } => write!(
                 f,
                 "at t = {t} s this position is behind the stop `{stop}`: its gap is {} (SI units); a mechanism starts and rests \

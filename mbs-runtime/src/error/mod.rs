@@ -148,6 +148,20 @@ pub enum Error {
         /// The first stop.
         stop: &'static str,
     },
+    /// Friction that sticks, for what does not see it.
+    Sticks {
+        /// The name of a method or an analysis.
+        what: &'static str,
+        /// The first friction.
+        friction: &'static str,
+    },
+    /// Friction that neither sticks nor slides.
+    Jammed {
+        /// The time in s.
+        t: f64,
+        /// The friction.
+        friction: &'static str,
+    },
     /// A state behind a stop.
     Behind {
         /// The time in s.

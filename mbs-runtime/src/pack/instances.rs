@@ -224,7 +224,7 @@ pub(super) fn steps_to_sample<
     members: &[S; N],
     now: &Moment<M, N>,
 ) -> u64 {
-    if !M::INFO.stops.is_empty() {
+    if M::INFO.contacts() > 0 {
         return 1;
     }
     if M::INFO.sampling.clocks == 0 {
@@ -241,17 +241,18 @@ pub(super) fn steps_to_sample<
 #[inline(always)]
 pub(super) fn push<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M, X>>, const N: usize>(
     members: &[S; N],
-    instances: &Instances<M, N>,
+    instances: &mut Instances<M, N>,
     now: &mut Moment<M, N>,
 ) -> Option<[u32; N]> {
     let mut all = [0; N];
-    if M::INFO.stops.is_empty() {
+    if M::INFO.contacts() == 0 {
         return Some(all);
     }
     for lane in 0..N {
-        let (member, inputs) = (members[lane].borrow(), instances.scalar_inputs(lane));
+        let (member, mut inputs) = (members[lane].borrow(), instances.scalar_inputs(lane));
         let mut state = now.scalar_state(lane);
-        all[lane] = pushed(member.mechanism(), member.step_size(), &mut state, &inputs).ok()?;
+        all[lane] = pushed(member.mechanism(), member.step_size(), &mut state, &mut inputs).ok()?;
+        instances.put_inputs(lane, inputs.into_array().as_ref());
         now.put_scalar(lane, &state);
     }
     Some(all)
@@ -265,7 +266,7 @@ pub(super) fn strike<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M
     before: &Moment<M, N>,
     (pushed, now): ([u32; N], &mut Moment<M, N>),
 ) -> bool {
-    if M::INFO.stops.is_empty() {
+    if M::INFO.contacts() == 0 {
         return true;
     }
     let (mut struck, mut memories) = (*now, *instances);

@@ -33,7 +33,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// A step in stages, and the samples that are due at its end.
     #[doc(hidden)]
     pub fn step_in_stages(&mut self) -> Result<(), Error> {
-        if M::INFO.stops.is_empty() {
+        if M::INFO.contacts() == 0 {
             self.step_by_stages()?;
         } else {
             self.step_to_stops(Self::step_by_stages)?;
@@ -62,7 +62,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         step: impl FnOnce(&mut Self) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let before = *self;
-        let led = pushed(&self.mechanism, self.step, &mut self.state, &self.inputs).and_then(|pushed| {
+        let led = pushed(&self.mechanism, self.step, &mut self.state, &mut self.inputs).and_then(|pushed| {
             step(self)?;
             let ends = [&before.state, &self.state];
             struck(&self.mechanism, self.step, (pushed, ends), &mut self.inputs)
@@ -82,14 +82,12 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// # Errors
     /// Those of [`begin`](moreau::begin).
     pub(super) fn touch(&mut self) -> Result<(), Error> {
-        if M::INFO.stops.is_empty() {
+        if M::INFO.contacts() == 0 {
             return Ok(());
         }
-        let none = M::Constraints::splat(M::Real::default());
-        let acceleration = self.mechanism.reactions(&self.state(), &self.inputs, &none).acceleration;
         let (state, mut inputs) = (Arrays::of(&self.state()), self.inputs.into_array());
-        let acceleration = acceleration.into_array();
-        moreau::begin(&self.mechanism, self.step, state.at(), acceleration.as_ref(), inputs.as_mut())?;
+        let mut vectors = vectors::<M>();
+        moreau::begin(&self.mechanism, (self.step, vectors.changes()), state.at(), inputs.as_mut())?;
         self.inputs = Components::from_array(inputs);
         Ok(())
     }
@@ -144,12 +142,12 @@ pub(crate) fn pushed<M: Mechanism>(
     mechanism: &M,
     h: M::Real,
     state: &mut State<M::States>,
-    inputs: &M::Inputs,
+    inputs: &mut M::Inputs,
 ) -> Result<u32, Error> {
     let Arrays { t, q, mut v } = Arrays::of(&mechanism.complete(state));
-    let (inputs, mut vectors) = (inputs.into_array(), vectors::<M>());
-    let pushed =
-        moreau::push(mechanism, (h, vectors.changes()), (t, q.as_ref(), v.as_mut()), inputs.as_ref())?;
+    let (mut own, mut vectors) = (inputs.into_array(), vectors::<M>());
+    let pushed = moreau::push(mechanism, (h, vectors.changes()), (t, q.as_ref(), v.as_mut()), own.as_mut())?;
+    *inputs = Components::from_array(own);
     if pushed != 0 {
         state.v = M::states(Components::from_array(v));
     }
@@ -183,7 +181,7 @@ pub(crate) fn press<M: Mechanism>(
     inputs: &M::Inputs,
     to: &mut Reactions<M::Coordinates, M::Constraints>,
 ) {
-    if !M::INFO.stops.is_empty() {
+    if M::INFO.contacts() > 0 {
         *to = pressed(mechanism, at, inputs, to);
     }
 }

@@ -76,10 +76,11 @@ fn compiler() -> Result<Vec<u8>, Box<dyn Error>> {
 /// The page, whose policy of content allows its own script and style, and those of the pages of mechanisms.
 fn page(compiler: &[u8]) -> Result<String, Box<dyn Error>> {
     let script = format!("(async () => {{\n{}\n}})().catch({FAILED});", SCRIPTS.join("\n"));
-    let inner = Sources::of_pages();
+    let [free, inner] = [false, true].map(Sources::of_pages);
     let policy = format!(
-        "default-src 'none'; script-src {} {} 'wasm-unsafe-eval'; style-src {} {}; worker-src blob:",
+        "default-src 'none'; script-src {} {} {} 'wasm-unsafe-eval'; style-src {} {}; worker-src blob:",
         source_hash(&script),
+        source_hash(&free.script),
         source_hash(&inner.script),
         source_hash(STYLE),
         source_hash(&inner.style)

@@ -2,8 +2,8 @@
 
 use super::derivation::readable;
 use super::{
-    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, FunctionId, Input, Link, Pivot,
-    Sampling, Sketch, SketchBody, Stop, Written,
+    Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, Friction, FunctionId, Input, Link,
+    Pivot, Sampling, Sketch, SketchBody, Stop, Written,
 };
 use crate::derive::Equations;
 use crate::model::{self, Block, Direction, Model};
@@ -42,6 +42,7 @@ impl Compiled {
                 .collect(),
             sampling: sampling(&model),
             stops: model.stops.iter().map(|stop| stop_of(&model, stop)).collect(),
+            frictions: model.frictions.iter().map(|friction| friction_of(&model, friction)).collect(),
             jacobian: plan.phi_q_places.clone(),
             masses: plan.mass_places.clone(),
             pivots: pivots(&model, &plan.pivot_names),
@@ -92,8 +93,18 @@ fn places(model: &Model) -> Vec<usize> {
 }
 
 fn stop_of(model: &Model, stop: &model::Stop) -> Stop {
-    let formula = readable(&model.arena, stop.gap);
+    let formula = readable(&model.arena, stop.contact.gap);
     Stop { quantity: stop.quantity.clone(), memory: stop.memory, formula, span: stop.span }
+}
+
+fn friction_of(model: &Model, friction: &model::Friction) -> Friction {
+    let [sliding, sticking] = friction.limits.map(|limit| readable(&model.arena, limit));
+    Friction {
+        name: friction.quantity.name.clone(),
+        memory: friction.memory,
+        limits: [sliding, sticking],
+        span: friction.span,
+    }
 }
 
 impl From<model::Event> for Event {

@@ -21,7 +21,7 @@ impl Compiled {
         let is_there = |function: &FunctionId| {
             (self.has_stiffness || !function.is(Property::Stiff))
                 && (self.sampling.clocks > 0 || !function.is(Property::Sampled))
-                && (!self.stops.is_empty() || !function.is(Property::Stopping))
+                && (self.contacts() > 0 || !function.is(Property::Stopping))
         };
         FunctionId::all().filter(is_there).filter(|function| !function.is(Property::Adaptive))
     }

@@ -124,6 +124,8 @@ pub struct Compiled {
     pub sampling: Sampling,
     /// The ends of the way.
     pub stops: Vec<Stop>,
+    /// Friction that sticks.
+    pub frictions: Vec<Friction>,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
     /// Row and column of every result of [`FunctionId::Mass`], each pair of coordinates once.
@@ -198,6 +200,18 @@ pub struct Stop {
     pub memory: usize,
     /// The gap, unless it is too long to read.
     pub formula: String,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// Friction that sticks; see [`FunctionId::Limits`].
+pub struct Friction {
+    /// Its name.
+    pub name: String,
+    /// The place among the inputs of the memory of the direction of sliding; that of the force that holds is behind it.
+    pub memory: usize,
+    /// The size of the force while it slides, and the largest one with which it sticks, unless they are too long to read.
+    pub limits: [String; 2],
     /// Where it is declared.
     pub span: Span,
 }
@@ -366,9 +380,20 @@ impl Compiled {
 
     /// The number of results of [`FunctionId::Contacts`].
     fn contact_count(&self) -> usize {
-        let stops = self.stops.len();
-        let response = 2 * self.coordinates.len() + self.constraints.len() + stops;
-        if stops == 0 { 0 } else { stops * response + 1 }
+        let contacts = self.contacts();
+        let response = 2 * self.coordinates.len() + self.constraints.len() + contacts;
+        if contacts == 0 { 0 } else { contacts * response + 1 }
+    }
+
+    /// The place of the first memory of every stop, and behind them of every friction that sticks.
+    pub fn contact_memories(&self) -> impl Iterator<Item = usize> {
+        let frictions = self.frictions.iter().map(|friction| friction.memory);
+        self.stops.iter().map(|stop| stop.memory).chain(frictions)
+    }
+
+    /// The number of stops and of frictions that stick.
+    pub fn contacts(&self) -> usize {
+        self.stops.len() + self.frictions.len()
     }
 
     /// The length of a kind of results.
@@ -390,7 +415,8 @@ impl Compiled {
             Results::Clocks => 2 * self.sampling.clocks,
             Results::Samples => self.sampling.samples.len(),
             Results::Stops => 2 * self.stops.len(),
-            Results::Gaps => 3 * self.stops.len(),
+            Results::Gaps => 3 * self.contacts(),
+            Results::Limits => 2 * self.frictions.len(),
             Results::Contacts => self.contact_count(),
             Results::Points => 2 * self.sketch.points.len(),
             Results::Scalar | Results::Growth => 1,

@@ -63,6 +63,7 @@ impl<'a> Resolver<'a> {
                 self.declare_input(name, unit, &item.doc);
             }
             ItemKind::Stop { name, .. } => self.declare_stop(name),
+            ItemKind::Element(element) => self.declare_friction(element),
             _ => {}
         }
     }

@@ -23,6 +23,7 @@ struct Resolved {
     second: Placed,
     along: [Expr; 2],
     values: BTreeMap<&'static str, Vec<Expr>>,
+    memories: Option<[Expr; 2]>,
 }
 
 impl Resolver<'_> {
@@ -37,7 +38,7 @@ impl Resolver<'_> {
         let mut effects = Effects::new(&self.scope.motion);
         let algebra = Algebra::new(&mut self.scope.arena);
         (element.kind.forces)(&resolved.on(&algebra), &mut effects);
-        let Effects { applied, energies, exerts, gap, .. } = effects;
+        let Effects { applied, energies, exerts, gap, sticks, .. } = effects;
         for applied in applied {
             self.push_applied(&element.name, applied);
         }
@@ -45,6 +46,9 @@ impl Resolver<'_> {
         self.gaps.extend(gap.map(|(distance, free)| Gap { distance, free, name: element.name.clone() }));
         if let Some(exerts) = exerts {
             self.exerts(&element.name, exerts);
+        }
+        if let Some(sticks) = sticks {
+            self.push_friction(&element.name, sticks);
         }
     }
 
@@ -57,7 +61,14 @@ impl Resolver<'_> {
         match first.zip(second) {
             Some((first, second)) => self.scope.locals = self.known(element, first, second),
             // a law in quantities of places that are not there
-            None if element.kind.properties.iter().any(|row| row.name == elements::LAW) => return None,
+            None if element
+                .kind
+                .properties
+                .iter()
+                .any(|row| row.name == elements::LAW && row.words.is_empty()) =>
+            {
+                return None;
+            }
             None => {}
         }
         let values = self.element_properties(element);
@@ -67,13 +78,14 @@ impl Resolver<'_> {
             Some(along) => self.direction_of(&element.name, along)?,
             None => [self.scope.arena.one(), self.scope.arena.zero()],
         };
-        Some(Resolved { first, second, along, values })
+        let memories = self.friction_memories(element);
+        Some(Resolved { first, second, along, values, memories })
     }
 
     /// The names that properties of an element know beside others.
     fn known(&mut self, element: &Element, first: Placed, second: Placed) -> Vec<Local> {
         let along = [self.scope.arena.one(), self.scope.arena.zero()];
-        let resolved = Resolved { first, second, along, values: BTreeMap::new() };
+        let resolved = Resolved { first, second, along, values: BTreeMap::new(), memories: None };
         let effects = Effects::new(&self.scope.motion);
         let algebra = Algebra::new(&mut self.scope.arena);
         let on = resolved.on(&algebra);
@@ -116,6 +128,10 @@ impl Resolver<'_> {
                 is_complete = false;
                 continue;
             };
+            if !row.words.is_empty() {
+                is_complete &= self.errors.take(word_of(row, property, &what)).is_some();
+                continue;
+            }
             match self.property_value(element, row, property) {
                 Some(value) => drop(values.insert(row.name, value)),
                 None => is_complete = false,
@@ -219,8 +235,36 @@ impl Resolved {
             second: self.second.on(algebra),
             along: algebra.vector(self.along),
             values: self.values.clone(),
+            memories: self.memories,
         }
     }
+}
+
+/// The word of a property that has words in the place of values.
+fn word_of(row: &Property, property: &ElementProperty, what: &str) -> Result<&'static str, Diagnostic> {
+    let help = format!("it is one of {}", listing(row.words));
+    let found = match &property.value {
+        Load::Scalar(Formula { kind: FormulaKind::Name(name), .. }) => Some(name),
+        _ => None,
+    };
+    let Some(name) = found else {
+        return Err(Diagnostic::new(property.name.span(), format!("{what} is a word")).help(help));
+    };
+    row.words
+        .iter()
+        .copied()
+        .find(|word| name == word)
+        .ok_or_else(|| Diagnostic::new(name.span(), format!("{what} cannot be `{name}`")).help(help))
+}
+
+/// The words that an element gives.
+pub(super) fn words_of(element: &Element) -> BTreeMap<&'static str, &'static str> {
+    let word = |property: &ElementProperty| {
+        let row =
+            element.kind.properties.iter().find(|row| property.name == row.name && !row.words.is_empty())?;
+        Some((row.name, word_of(row, property, "").ok()?))
+    };
+    element.properties.iter().filter_map(word).collect()
 }
 
 /// Checks that all properties are given that the element needs.
@@ -231,7 +275,8 @@ fn is_said(element: &Element) -> Result<(), Diagnostic> {
     };
     let names: Vec<_> = element.properties.iter().map(|property| property.name.to_string()).collect();
     let zeros = element.properties.iter().map(|property| is_zero(&property.value));
-    let given = Given(names.iter().map(String::as_str).zip(zeros).collect());
+    let names = names.iter().map(String::as_str).zip(zeros).collect();
+    let given = Given { names, words: words_of(element) };
     let name = &element.name;
     let (message, help) = match (element.kind.said)(&given) {
         Ok(()) => return Ok(()),

@@ -13,6 +13,7 @@ mod elements;
 mod energies;
 mod events;
 mod formula;
+mod frictions;
 mod functions;
 mod hints;
 mod known;
@@ -96,6 +97,7 @@ pub struct Model {
     pub outputs: Vec<Output>,
     pub events: Vec<Event>,
     pub stops: Vec<Stop>,
+    pub frictions: Vec<Friction>,
     pub sketch: Sketch,
     /// Warnings about parts that compile and are likely mistakes.
     pub warnings: Vec<Diagnostic>,
@@ -303,16 +305,33 @@ pub struct Clock {
     pub sets: Vec<(usize, Expr)>,
 }
 
-/// An end of the way: its gap is 0 there, and never negative.
-pub struct Stop {
-    /// The name and the unit of the gap.
-    pub quantity: Quantity,
+/// A value g of positions along which impulses act: the gap of a stop, or how far friction has slid.
+pub struct Contact {
     pub gap: Expr,
     pub rate: Expr,
     /// The second derivative, of the accelerations, too.
     pub acceleration: Expr,
     /// ∂g/∂q for every coordinate q along which it is not 0.
     pub slopes: Vec<(usize, Expr)>,
+}
+
+/// Friction that sticks.
+pub struct Friction {
+    pub quantity: Quantity,
+    /// How far it has slid.
+    pub contact: Contact,
+    /// The size of the force while it slides, and the largest one with which it sticks.
+    pub limits: [Expr; 2],
+    /// The place among the inputs of the memory of the direction of sliding; that of the force that holds is behind it.
+    pub memory: usize,
+    pub span: Span,
+}
+
+/// An end of the way: its gap is 0 there, and never negative.
+pub struct Stop {
+    /// The name and the unit of the gap.
+    pub quantity: Quantity,
+    pub contact: Contact,
     pub restitution: Expr,
     pub settle: Expr,
     /// The place among the inputs of the memory that is 1 while it is rested on; that of its impulse is behind it.
@@ -328,6 +347,12 @@ pub struct Event {
 }
 
 impl Model {
+    /// The values along which impulses act: the gaps of stops, and behind them the ways that friction slides.
+    pub fn contacts(&self) -> impl Iterator<Item = &Contact> + Clone {
+        let frictions = self.frictions.iter().map(|friction| &friction.contact);
+        self.stops.iter().map(|stop| &stop.contact).chain(frictions)
+    }
+
     /// The coordinate of this direction of a body, if it has one.
     pub fn coordinate_of(&self, body: &Body, direction: Direction) -> Option<usize> {
         body.coordinates.iter().copied().find(|&at| self.coordinates[at].direction() == Some(direction))

@@ -15,8 +15,8 @@ use rustc_hash::FxHashMap as HashMap;
 use super::known::{Definition, Energies, State, Value};
 use super::names::Scope;
 use super::{
-    Block, Body, Check, Clock, Closes, Constraint, Coordinate, Direction, Event, Gap, Model, Output,
-    ReactiveLoad, Solver, Start, Stop,
+    Block, Body, Check, Clock, Closes, Constraint, Coordinate, Direction, Event, Friction, Gap, Model,
+    Output, ReactiveLoad, Solver, Start, Stop,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
 use crate::mechanics::{Inertia, Load, Particle};
@@ -99,6 +99,7 @@ pub(super) struct Resolver<'a> {
     pub output_names: HashMap<String, Span>,
     pub events: Vec<Event>,
     pub stops: Vec<Stop>,
+    pub frictions: Vec<Friction>,
     pub event_names: HashMap<String, Span>,
 }
 
@@ -141,6 +142,7 @@ impl<'a> Resolver<'a> {
             output_names: HashMap::default(),
             events: Vec::new(),
             stops: Vec::new(),
+            frictions: Vec::new(),
             event_names: HashMap::default(),
         }
     }
@@ -217,6 +219,7 @@ impl<'a> Resolver<'a> {
         self.check_rates();
         self.check_solver();
         self.check_stops();
+        self.check_frictions();
         if self.dof.is_none() {
             let lines = self.coordinates.iter().filter(|coordinate| !coordinate.is_own()).count();
             let left = lines as i64 - self.row_count as i64;
@@ -270,6 +273,7 @@ impl<'a> Resolver<'a> {
             outputs: self.outputs,
             events: self.events,
             stops: self.stops,
+            frictions: self.frictions,
             sketch,
             warnings,
         };

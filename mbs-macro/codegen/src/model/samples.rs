@@ -137,10 +137,12 @@ impl Resolver<'_> {
 
     /// A memory that no stop sets.
     fn settable(&mut self, name: &Ident, memory: usize, symbol: Symbol) -> Option<(usize, Symbol)> {
-        if self.stops.iter().all(|stop| stop.memory != memory && stop.memory + 1 != memory) {
+        let of_stops = self.stops.iter().map(|stop| stop.memory);
+        let mut of_contacts = of_stops.chain(self.frictions.iter().map(|friction| friction.memory));
+        if of_contacts.all(|own| own != memory && own + 1 != memory) {
             return Some((memory, symbol));
         }
-        let message = format!("`{name}` is set at impacts, and no clock sets it");
+        let message = format!("`{name}` is set by the run, and no clock sets it");
         let help = "let a memory of its own depend on it: `set held = …;`";
         self.errors.push(Diagnostic::new(name.span(), message).help(help));
         None

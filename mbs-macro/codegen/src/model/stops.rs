@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use mbs_symbolic::units::{Dimension, Unit};
-use mbs_symbolic::{Algebra, Expr, Node, Number, Pieces, Stage};
+use mbs_symbolic::{Expr, Node, Number, Pieces, Stage};
 use proc_macro2::Ident;
 
 use super::declare::quantity;
@@ -55,35 +55,11 @@ impl Resolver<'_> {
         self.know_impulse(name, memory + 1, dimension);
         let values = self.stop_properties(name, properties);
         let Some([restitution, settle]) = values else { return };
-        let algebra = Algebra::new(&mut self.scope.arena);
-        let motion = &self.scope.motion;
-        let scalar = algebra.scalar(gap);
-        let slopes = motion.slopes(scalar);
-        let rate = motion.rate(scalar);
-        let curved = motion.rate(rate);
-        let (rate, curved) = (rate.expr(), curved.expr());
-        let mut acceleration = curved;
-        for &(at, slope) in &slopes {
-            let Some(of_coordinate) = self.scope.symbol_of(Meaning::Acceleration(at)) else { continue };
-            let arena = &mut self.scope.arena;
-            let of_coordinate = arena.variable(of_coordinate);
-            let term = arena.mul(slope, of_coordinate);
-            acceleration = arena.add(acceleration, term);
-        }
+        let contact = self.contact(gap);
         let unit = Unit { scale: Number::ONE, dimension };
         let quantity = quantity(name, "", &dimension.si_unit(), unit);
         let span = name.span();
-        self.stops.push(Stop {
-            quantity,
-            gap,
-            rate,
-            acceleration,
-            slopes,
-            restitution,
-            settle,
-            memory,
-            span,
-        });
+        self.stops.push(Stop { quantity, contact, restitution, settle, memory, span });
     }
 
     /// The gap, which is 0 where the stop is touched, and its dimension.
@@ -116,7 +92,9 @@ impl Resolver<'_> {
             self.errors.push(Diagnostic::new(name.span(), message).help(help));
             return None;
         }
-        if self.stops.len() == MOST_STOPS || self.stops.len() + self.events.len() >= MOST_WATCHED {
+        if self.stops.len() == MOST_STOPS
+            || self.stops.len() + self.frictions.len() + self.events.len() >= MOST_WATCHED
+        {
             let message = format!("`{name}` is one stop too many: a mechanism has at most {MOST_STOPS}");
             let help = "leave some out, or make soft ones of them: `force end on x = -k*ramp(x - gap);`";
             self.errors.push(Diagnostic::new(name.span(), message).help(help));

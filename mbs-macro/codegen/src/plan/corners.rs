@@ -46,7 +46,7 @@ pub struct Switch {
 pub fn corners(model: &mut Model, equations: &Equations, inputs: &Inputs) -> (Vec<Corner>, Vec<Switch>) {
     let declared = model.constraints.iter().map(|constraint| constraint.declared());
     let events = model.events.iter().map(|event| event.value);
-    let gaps = model.stops.iter().map(|stop| stop.gap);
+    let gaps = model.contacts().map(|contact| contact.gap);
     let forces = equations.total_forces.iter().copied();
     let roots: Vec<Expr> = declared.chain(forces).chain(events).chain(gaps).collect();
     let first_memory = model.inputs.len().saturating_sub(model.memories);

@@ -79,8 +79,9 @@ pub fn roots(
         (FunctionId::Stops, model.stops.iter().flat_map(|stop| [stop.restitution, stop.settle]).collect()),
         (
             FunctionId::Gaps,
-            model.stops.iter().flat_map(|stop| [stop.gap, stop.rate, stop.acceleration]).collect(),
+            model.contacts().flat_map(|contact| [contact.gap, contact.rate, contact.acceleration]).collect(),
         ),
+        (FunctionId::Limits, model.frictions.iter().flat_map(|friction| friction.limits).collect()),
         (FunctionId::Contacts, contacts),
         (FunctionId::Conditions, requirements(model)),
         (FunctionId::Start, declared_start(model)),

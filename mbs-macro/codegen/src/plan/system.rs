@@ -266,14 +266,14 @@ impl Solver {
         roots
     }
 
-    /// The response to a unit impulse along the gap of every stop, of velocities and multipliers, and ∂g/∂q; how impulses
-    /// change the rates of all gaps, and the growth; nothing without stops.
+    /// The response to a unit impulse along every contact g, of velocities and multipliers, and ∂g/∂q; how impulses change
+    /// the rates of all of them, and the growth; nothing without contacts.
     pub fn contacts(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
         let Problem { equations, rows, .. } = problem;
-        if model.stops.is_empty() {
+        let gaps: Vec<_> = model.contacts().map(|contact| contact.slopes.clone()).collect();
+        if gaps.is_empty() {
             return Vec::new();
         }
-        let gaps: Vec<_> = model.stops.iter().map(|stop| stop.slopes.clone()).collect();
         let (mut roots, mut mobility) = (Vec::new(), Vec::new());
         for gap in &gaps {
             let rhs = gap.iter().map(|&(at, slope)| (Unknown::Coordinate(at), slope)).collect();

@@ -1,8 +1,9 @@
 //! Force elements, a word with places and a block of properties:
 //! `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`.
 
+use syn::ext::IdentExt;
 use syn::parse::ParseStream;
-use syn::{Ident, Result, braced};
+use syn::{Ident, Result, Token, braced};
 
 use super::formula::is_vector;
 use super::joints::two_places;
@@ -59,7 +60,8 @@ pub(super) fn law(input: ParseStream<'_>, name: Ident, kind: &'static ElementKin
 
 /// `stiffness = 3 [N/m];` or `wind = (5, 0) [m/s];`
 fn property(input: ParseStream<'_>) -> Result<ElementProperty> {
-    let name = name(input)?;
+    // `static` is a word of Rust, and no name of anything here
+    let name = if input.peek(Token![static]) { input.call(Ident::parse_any)? } else { name(input)? };
     equals(input)?;
     let value = if is_vector(input) { Load::Vector(input.parse()?) } else { Load::Scalar(input.parse()?) };
     semicolon(input)?;

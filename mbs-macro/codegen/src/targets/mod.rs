@@ -14,4 +14,4 @@ pub use fmi::{Experiment, Fmu, Version, fmi};
 #[cfg(feature = "rust")]
 pub use rust::rust;
 #[cfg(feature = "wasm")]
-pub use wasm::{RUN_SCRIPT, Wasm, wasm};
+pub use wasm::{RUN_SCRIPTS, Wasm, wasm};

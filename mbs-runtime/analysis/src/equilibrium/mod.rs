@@ -275,6 +275,7 @@ impl From<&Equilibrium> for OperatingPoint {
 pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Equilibrium, Error> {
     let info = mechanism.info();
     Error::refuse_rates(info, "an equilibrium")?;
+    info.refuse_sticking("an equilibrium")?;
     let declared: Vec<f64> = info.coordinates.iter().map(|q| q.default).collect();
     let defaults: Vec<f64> = info.inputs.iter().map(|input| input.default).collect();
     let from = search.from.clone().unwrap_or(declared);

@@ -28,7 +28,7 @@ impl<T: Real> Run<T> {
         let [q, mut v] = self.completed();
         let mut vectors = Vectors::new(vec![T::ZERO; q.len()], vec![T::ZERO; self.multipliers]);
         let pushed =
-            push(&self.mechanism, (self.step, vectors.changes()), (self.t, &q, &mut v), &self.inputs)?;
+            push(&self.mechanism, (self.step, vectors.changes()), (self.t, &q, &mut v), &mut self.inputs)?;
         if pushed != 0 {
             self.mechanism.states(&v, &mut self.v);
         }
@@ -48,13 +48,12 @@ impl<T: Real> Run<T> {
 
     /// Rests on the stops that the start touches.
     pub(super) fn touch(&mut self) -> Result<(), Error> {
-        if self.mechanism.declared_info().stops.is_empty() {
+        if self.mechanism.declared_info().contacts() == 0 {
             return Ok(());
         }
         let [q, v] = self.completed();
-        let (at, none) = (At { t: self.t, q: &q, v: &v }, vec![T::ZERO; self.multipliers]);
-        let mut acceleration = vec![T::ZERO; q.len()];
-        self.mechanism.accelerations(at, &self.inputs, &none, &mut acceleration);
-        begin_at_stops(&self.mechanism, self.step, at, &acceleration, &mut self.inputs)
+        let mut vectors = Vectors::new(vec![T::ZERO; q.len()], vec![T::ZERO; self.multipliers]);
+        let at = At { t: self.t, q: &q, v: &v };
+        begin_at_stops(&self.mechanism, (self.step, vectors.changes()), at, &mut self.inputs)
     }
 }

@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use clap::Args;
-use mbs_runtime::{DeclaredStop, Derivation, Info, Knots, Switch};
+use mbs_runtime::{DeclaredFriction, DeclaredStop, Derivation, Info, Knots, Switch};
 
 use super::options::Named;
 use crate::StartValue;
@@ -148,6 +148,14 @@ fn switches(switching: &[Switch]) -> String {
 /// The ends of the way; nothing without one.
 fn stops(info: &Info) -> String {
     let mut text = String::new();
+    if !info.frictions.is_empty() {
+        let mut table = Table::new(["", "sliding", "sticking, at most"]);
+        for DeclaredFriction { name, limits: [sliding, sticking], .. } in info.frictions {
+            table.row([*name, *sliding, *sticking]);
+        }
+        let title = "Friction that sticks: its size while it slides, and the largest one with which it holds";
+        section(&mut text, title, &table);
+    }
     if info.stops.is_empty() {
         return text;
     }

@@ -17,6 +17,8 @@ pub struct Element<'a> {
     pub along: Vector<Scalar<'a>>,
     /// Components by name: one of a scalar, two of a vector.
     pub values: BTreeMap<&'static str, Vec<Expr>>,
+    /// Where it may stick: the memories of which way it slides, and of the force that holds it.
+    pub memories: Option<[Expr; 2]>,
 }
 
 impl<'a> Element<'a> {
@@ -50,6 +52,17 @@ pub struct Effects<'m> {
     pub exerts: Option<Exerts>,
     /// A distance that must not vanish, and its value without force.
     pub gap: Option<(Expr, Expr)>,
+    /// Dry friction that sticks.
+    pub sticks: Option<Sticks>,
+}
+
+/// Dry friction that holds still what does not overcome it.
+#[derive(Clone, Copy)]
+pub struct Sticks {
+    /// How far it has slid.
+    pub slip: Expr,
+    /// The size of the force while it slides, and the largest one with which it sticks.
+    pub limits: [Expr; 2],
 }
 
 /// A tension, a friction force, a torque.
@@ -62,7 +75,7 @@ pub struct Exerts {
 impl<'m> Effects<'m> {
     /// None yet.
     pub fn new(motion: &'m Motion) -> Self {
-        Self { motion, applied: Vec::new(), energies: Vec::new(), exerts: None, gap: None }
+        Self { motion, applied: Vec::new(), energies: Vec::new(), exerts: None, gap: None, sticks: None }
     }
 
     /// ẋ

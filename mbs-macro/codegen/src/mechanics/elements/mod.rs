@@ -12,7 +12,8 @@ mod one_sided;
 mod properties;
 mod spring;
 
-pub use effects::{Effects, Element, Exerts};
+pub use effects::{Effects, Element, Exerts, Sticks};
+pub use friction::COULOMB;
 pub use kind::{ElementKind, Freedom, Known, Places};
 pub use law::{FORCE_BETWEEN, LAW, TORQUE_BETWEEN};
 pub use properties::{Given, Property, Range, Unsaid};

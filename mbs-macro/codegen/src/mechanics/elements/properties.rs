@@ -1,5 +1,7 @@
 //! Properties of elements, and which of them are given.
 
+use std::collections::BTreeMap;
+
 use mbs_symbolic::units::Dimension;
 
 pub const FORCE: Dimension = Dimension::of(1, 1, -2);
@@ -17,6 +19,8 @@ pub struct Property {
     pub is_vector: bool,
     /// True if a bare number is meant in radians.
     pub is_angle: bool,
+    /// The words of which it is one, in the place of a value.
+    pub words: &'static [&'static str],
 }
 
 /// The values that make sense.
@@ -30,7 +34,13 @@ pub enum Range {
 impl Property {
     /// A value that may change with the motion.
     pub const fn varying(name: &'static str, dimension: Dimension) -> Self {
-        Self { name, dimension, varies: true, range: Range::All, is_vector: false, is_angle: false }
+        let (range, words) = (Range::All, &[] as &[_]);
+        Self { name, dimension, varies: true, range, is_vector: false, is_angle: false, words }
+    }
+
+    /// One of some words.
+    pub const fn word(name: &'static str, words: &'static [&'static str]) -> Self {
+        Self { words, ..Self::fixed(name, Dimension::NONE) }
     }
 
     /// A value in parameters and constants.
@@ -56,8 +66,13 @@ impl Property {
     }
 }
 
-/// The properties that a declaration gives, and whether each is written as the number 0.
-pub struct Given<'g>(pub Vec<(&'g str, bool)>);
+/// The properties that a declaration gives.
+pub struct Given<'g> {
+    /// Each with whether it is written as the number 0.
+    pub names: Vec<(&'g str, bool)>,
+    /// Those that are words.
+    pub words: BTreeMap<&'static str, &'static str>,
+}
 
 /// Why the properties do not say what the element does.
 pub enum Unsaid {
@@ -69,12 +84,17 @@ pub enum Unsaid {
 
 impl Given<'_> {
     pub fn has(&self, name: &str) -> bool {
-        self.0.iter().any(|(given, _)| *given == name)
+        self.names.iter().any(|(given, _)| *given == name)
     }
 
     /// True if it is given, and not as the number 0.
     pub fn has_some(&self, name: &str) -> bool {
-        self.0.iter().any(|&(given, is_zero)| given == name && !is_zero)
+        self.names.iter().any(|&(given, is_zero)| given == name && !is_zero)
+    }
+
+    /// The word of a property.
+    pub fn word(&self, name: &str) -> Option<&'static str> {
+        self.words.get(name).copied()
     }
 
     /// That these properties are given.

@@ -19,7 +19,7 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
         false => ("0", ""),
     };
     let clocks = if target.compiled.sampling.clocks > 0 { include_str!("text/clocks.h") } else { "" };
-    let stops = if target.compiled.stops.is_empty() { "" } else { include_str!("text/stops.h") };
+    let stops = if target.compiled.contacts() == 0 { "" } else { include_str!("text/stops.h") };
     let parts = [
         comment(&format!("{}\n\n{HEAD}", target.compiled.doc), ""),
         target.fill(include_str!("text/header_head.h")),
@@ -77,9 +77,13 @@ fn counts(target: &Target<'_>) -> String {
     ];
     let Sampling { memories, clocks, samples } = &compiled.sampling;
     let of_clocks = [("CLOCKS", *clocks), ("MEMORIES", *memories), ("SAMPLES", samples.len())];
-    let of_stops = [("STOPS", compiled.stops.len()), ("CONTACTS", compiled.length(Results::Contacts))];
+    let of_stops = [
+        ("STOPS", compiled.stops.len()),
+        ("ROWS", compiled.contacts()),
+        ("CONTACTS", compiled.length(Results::Contacts)),
+    ];
     let of_clocks = of_clocks.into_iter().filter(|_| *clocks > 0);
-    let of_stops = of_stops.into_iter().filter(|_| !compiled.stops.is_empty());
+    let of_stops = of_stops.into_iter().filter(|_| compiled.contacts() > 0);
     for (name, count) in others.into_iter().chain(of_clocks).chain(of_stops) {
         let _ = writeln!(text, "    {capitals}_{name} = {count},");
     }

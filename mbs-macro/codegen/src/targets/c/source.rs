@@ -20,7 +20,7 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
     } else {
         "run->is_held ? NAME_step_held(run, t_next) : NAME_step_per_stage(run, t_next)"
     };
-    let has_stops = !target.compiled.stops.is_empty();
+    let has_stops = target.compiled.contacts() > 0;
     let code = [
         kernels.iter().map(Kernel::text).collect(),
         target.fill(include_str!("text/vectors.c")),
@@ -33,7 +33,8 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
         target.fill(if has_stops { include_str!("text/contacts.c") } else { "" }),
         target.fill(&within(target.compiled, &results(target.compiled)).replace("STEP", step)),
         target.fill(&if has_stops {
-            unsampled(target.compiled, include_str!("text/stops.c"))
+            include_str!("text/sticking.c").to_owned()
+                + &unsampled(target.compiled, include_str!("text/stops.c"))
         } else {
             String::new()
         }),
@@ -62,7 +63,7 @@ const STARTS_AND_STEPS: [&str; 3] = ["start", "start_from", "step"];
 
 /// A text whose starts and steps are those within what stops, or else clocks, do.
 fn within(compiled: &Compiled, text: &str) -> String {
-    if compiled.stops.is_empty() {
+    if compiled.contacts() == 0 {
         return unsampled(compiled, text);
     }
     STARTS_AND_STEPS.into_iter().fold(text.to_owned(), |text, name| {
@@ -83,7 +84,7 @@ fn unsampled(compiled: &Compiled, text: &str) -> String {
 /// The functions that a run is asked with, and forces at stops where there are any.
 fn results(compiled: &Compiled) -> String {
     let text = include_str!("text/results.c");
-    let is_kept = |line: &&str| !compiled.stops.is_empty() || !line.contains("NAME_press(");
+    let is_kept = |line: &&str| compiled.contacts() > 0 || !line.contains("NAME_press(");
     text.split_inclusive('\n').filter(is_kept).collect()
 }
 
@@ -165,9 +166,10 @@ fn tables(target: &Target<'_>) -> String {
             "/* The clock and the memory of every sample. */\nstatic const int NAME_sample_places[][2]";
         add(declaration, places, "{0, 0}");
     }
-    if !compiled.stops.is_empty() {
-        let places = compiled.stops.iter().map(|stop| stop.memory.to_string()).collect();
-        let declaration = "/* The first memory of every stop. */\nstatic const int NAME_stop_places[]";
+    if compiled.contacts() > 0 {
+        let places = compiled.contact_memories().map(|memory| memory.to_string()).collect();
+        let declaration = "/* The first memory of every stop, and behind them of every friction that sticks. */\nstatic const int \
+             NAME_memories[]";
         add(declaration, places, "0");
     }
     let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();

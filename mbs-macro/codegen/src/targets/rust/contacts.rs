@@ -10,10 +10,11 @@ use crate::compiled::{Compiled, FunctionId, Results};
 
 /// The functions of stops; nothing without one.
 pub fn stops(compiled: &Compiled, names: &Names) -> TokenStream {
-    if compiled.stops.is_empty() {
+    if compiled.contacts() == 0 {
         return TokenStream::new();
     }
     let Names { state, reactions, .. } = names;
+    let inputs = &names.inputs.of_t;
     let q = &names.coordinates.of_t;
     let values = |function: FunctionId, of: Results, access: &Access| {
         let body = body(compiled, names, function, access);
@@ -24,6 +25,7 @@ pub fn stops(compiled: &Compiled, names: &Names) -> TokenStream {
     };
     let laws = values(FunctionId::Stops, Results::Stops, &Access::of_position());
     let gaps = values(FunctionId::Gaps, Results::Gaps, &Access::of_state());
+    let limits = values(FunctionId::Limits, Results::Limits, &Access::of_state());
     let contacts = values(FunctionId::Contacts, Results::Contacts, &Access::of_position());
     quote! {
         fn stop_laws(&self, laws: &mut [T]) {
@@ -35,6 +37,12 @@ pub fn stops(compiled: &Compiled, names: &Names) -> TokenStream {
         fn gaps(&self, at: &#state, reactions: &#reactions, gaps: &mut [T]) {
             #gaps
             for (to, from) in gaps.iter_mut().zip(values) {
+                *to = from;
+            }
+        }
+        fn limits(&self, at: &#state, inputs: &#inputs, reactions: &#reactions, limits: &mut [T]) {
+            #limits
+            for (to, from) in limits.iter_mut().zip(values) {
                 *to = from;
             }
         }

@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::names::Names;
-use crate::compiled::{Compiled, Count, Crossing, Event, Pivot, Quantity, Sampling, Stop};
+use crate::compiled::{Compiled, Count, Crossing, Event, Friction, Pivot, Quantity, Sampling, Stop};
 
 pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
@@ -55,6 +55,11 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         let (of, memory) = (dimension(*of, runtime), Literal::usize_unsuffixed(*memory));
         quote!(#runtime::DeclaredStop { name: #name, doc: #doc, unit: #unit, dimension: #of, memory: #memory, formula: #formula })
     });
+    let frictions =
+        compiled.frictions.iter().map(|Friction { name, memory, limits: [sliding, sticking], .. }| {
+            let memory = Literal::usize_unsuffixed(*memory);
+            quote!(#runtime::DeclaredFriction { name: #name, memory: #memory, limits: [#sliding, #sticking] })
+        });
     let start_pivots = pivots(&compiled.start_pivots, runtime);
     let pivots = pivots(&compiled.pivots, runtime);
     let functions = compiled.counts().into_iter().map(|function| {
@@ -80,7 +85,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             #name, #doc, #dof,
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], #lines, &[#(#outputs),*],
             &[#(#events),*], &[#(#constraints),*], &[#(#states),*], &[#(#redundant),*],
-            &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, #sampling, &[#(#stops),*],
+            &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, #sampling, &[#(#stops),*], &[#(#frictions),*],
             &[#(#functions),*],
         )
     }

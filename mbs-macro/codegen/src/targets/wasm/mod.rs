@@ -33,23 +33,31 @@ use memory::Memory;
 use planned::{Signature, planned};
 use program::body;
 
-/// The JavaScript that runs a mechanism in its module: it defines `mbs.Mechanism` and `mbs.Run`. The order of
-/// operations is that of the C target, so that numbers agree with those of C and Rust to the bit.
-pub const RUN_SCRIPT: &str = concat!(
-    "const mbs = (() => {\n\"use strict\";\n",
-    include_str!("text/mechanism.js"),
-    include_str!("text/start.js"),
-    include_str!("text/stops.js"),
-    include_str!("text/step.js"),
-    "return { Failure, Mechanism, Run, largest, add };\n})();\n",
-);
+macro_rules! run_script {
+    ($($contacts:literal),*) => {
+        concat!(
+            "const mbs = (() => {\n\"use strict\";\n",
+            include_str!("text/mechanism.js"),
+            include_str!("text/start.js"),
+            $(include_str!($contacts),)*
+            include_str!("text/step.js"),
+            "return { Failure, Mechanism, Run, largest, add };\n})();\n",
+        )
+    };
+}
+
+/// The JavaScript that runs a mechanism in its module: it defines `mbs.Mechanism` and `mbs.Run`. The first one is of
+/// mechanisms without stops and without friction that sticks, the second one of all. The order of operations is that of the C
+/// target, so that numbers agree with those of C and Rust to the bit.
+pub const RUN_SCRIPTS: [&str; 2] =
+    [run_script!("text/no_contacts.js"), run_script!("text/sticking.js", "text/stops.js")];
 
 /// A mechanism in WebAssembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wasm {
     /// The module. It imports functions of JavaScript's `Math` from `math`.
     pub module: Vec<u8>,
-    /// Names, units, conditions and counts as JSON: what [`RUN_SCRIPT`] has to know.
+    /// Names, units, conditions and counts as JSON: what [`RUN_SCRIPTS`] have to know.
     pub tables: String,
 }
 

@@ -54,9 +54,11 @@ impl Point<'_> {
         let samples: Vec<_> =
             clocks.flat_map(|it| it.sets.iter().map(|(_, value)| self.value(*value))).collect();
         self.agree(FunctionId::Samples, &samples)?;
-        let stops = model.stops.iter();
-        let gaps = stops.flat_map(|stop| [stop.gap, stop.rate, stop.acceleration].map(|x| self.value(x)));
-        self.agree(FunctionId::Gaps, &gaps.collect::<Vec<_>>())
+        let contacts = model.contacts();
+        let gaps = contacts.flat_map(|of| [of.gap, of.rate, of.acceleration].map(|x| self.value(x)));
+        self.agree(FunctionId::Gaps, &gaps.collect::<Vec<_>>())?;
+        let limits = model.frictions.iter().flat_map(|friction| friction.limits.map(|x| self.value(x)));
+        self.agree(FunctionId::Limits, &limits.collect::<Vec<_>>())
     }
 
     /// The entries of M; those that have no place are 0.

@@ -1,18 +1,18 @@
-/* Stops: responses to unit impulses along their gaps. */
+/* Contacts: the gaps of stops, and behind them the ways of frictions that stick. Responses to unit impulses along them. */
 
 /* The change of the rate of one gap by a unit impulse at a stop. */
 static real NAME_mobility(const real *contacts, int of, int by)
 {
-    return contacts[CAPS_STOPS * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS + by) + of];
+    return contacts[CAPS_ROWS * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS + by) + of];
 }
 
 /* x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set. */
 static void NAME_solve_at_stops(const real *contacts, const int *set, const real *b, real *x)
 {
-    real rows[CAPS_STOPS][CAPS_STOPS + 1] = {{0}};
-    double diagonal[CAPS_STOPS];
-    int members[CAPS_STOPS], is_pivot[CAPS_STOPS], count = 0;
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+    real rows[CAPS_ROWS][CAPS_ROWS + 1] = {{0}};
+    double diagonal[CAPS_ROWS];
+    int members[CAPS_ROWS], is_pivot[CAPS_ROWS], count = 0;
+    for (int stop = 0; stop < CAPS_ROWS; stop++) {
         x[stop] = 0;
         if (set[stop]) {
             members[count] = stop;
@@ -23,7 +23,7 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
         for (int column = 0; column < count; column++) {
             rows[row][column] = NAME_mobility(contacts, members[row], members[column]);
         }
-        rows[row][CAPS_STOPS] = -b[members[row]];
+        rows[row][CAPS_ROWS] = -b[members[row]];
         diagonal[row] = (double)rows[row][row];
     }
     for (int at = 0; at < count; at++) {
@@ -31,13 +31,13 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
         is_pivot[at] = (double)pivot > 1e-10 * diagonal[at];
         for (int row = 0; is_pivot[at] && row < count; row++) {
             const real factor = rows[row][at] / pivot;
-            for (int column = 0; row != at && column <= CAPS_STOPS; column++) {
+            for (int column = 0; row != at && column <= CAPS_ROWS; column++) {
                 rows[row][column] = rows[row][column] - factor * rows[at][column];
             }
         }
     }
     for (int at = 0; at < count; at++) {
-        x[members[at]] = is_pivot[at] ? rows[at][CAPS_STOPS] / rows[at][at] : 0;
+        x[members[at]] = is_pivot[at] ? rows[at][CAPS_ROWS] / rows[at][at] : 0;
     }
 }
 
@@ -45,11 +45,11 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
 static int NAME_least_wrong(const real *contacts, const int *set, const int *active, const real *b, const real *x)
 {
     double largest = 0;
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+    for (int stop = 0; stop < CAPS_ROWS; stop++) {
         const double size = fabs((double)x[stop]);
         largest = size > largest ? size : largest;
     }
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+    for (int stop = 0; stop < CAPS_ROWS; stop++) {
         double rate = (double)b[stop], size = fabs(rate);
         if (!set[stop]) {
             continue;
@@ -57,7 +57,7 @@ static int NAME_least_wrong(const real *contacts, const int *set, const int *act
         if (active[stop] && (double)x[stop] < -1e-12 * largest) {
             return stop;
         }
-        for (int by = 0; by < CAPS_STOPS; by++) {
+        for (int by = 0; by < CAPS_ROWS; by++) {
             const double term = (double)NAME_mobility(contacts, stop, by) * (double)x[by];
             rate = rate + term;
             size = size + fabs(term);
@@ -70,17 +70,17 @@ static int NAME_least_wrong(const real *contacts, const int *set, const int *act
 }
 
 /* The first active stop whose impulse becomes 0 where that of one grows that depends on them; -1 where there is none. */
-static int NAME_exchanged(const real *contacts, const int *active, int by, const real *x)
+static int NAME_exchanged(const real *contacts, const int *active, int by, const int *bound, const real *x)
 {
-    real column[CAPS_STOPS], shares[CAPS_STOPS];
-    int others[CAPS_STOPS], first = -1;
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+    real column[CAPS_ROWS], shares[CAPS_ROWS];
+    int others[CAPS_ROWS], first = -1;
+    for (int stop = 0; stop < CAPS_ROWS; stop++) {
         column[stop] = -NAME_mobility(contacts, stop, by);
         others[stop] = active[stop] && stop != by;
     }
     NAME_solve_at_stops(contacts, others, column, shares);
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        if ((double)shares[stop] > 1e-10
+    for (int stop = 0; stop < CAPS_ROWS; stop++) {
+        if (!bound[stop] && (double)shares[stop] > 1e-10
             && (first < 0
                 || (double)x[stop] / (double)shares[stop] < (double)x[first] / (double)shares[first])) {
             first = stop;
@@ -89,20 +89,24 @@ static int NAME_exchanged(const real *contacts, const int *active, int by, const
     return first;
 }
 
-/* x >= 0 with W x + b >= 0 at the stops of a set, one or the other 0 at each, by pivots of the least index; 0 where there
-   is none. */
-static int NAME_complementary(const real *contacts, const int *set, const real *b, real *x)
+/* x >= 0 with W x + b >= 0 at the stops of a set, one or the other 0 at each, by pivots of the least index; W x + b = 0 at
+   those that are bound; 0 where there is none. */
+static int NAME_complementary(const real *contacts, const int *set, const int *bound, const real *b, real *x)
 {
-    int active[CAPS_STOPS] = {0};
+    int active[CAPS_ROWS], open[CAPS_ROWS];
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        active[row] = bound[row] && set[row];
+        open[row] = set[row] && !bound[row];
+    }
     for (int pivots = 0; pivots < 512; pivots++) {
         NAME_solve_at_stops(contacts, active, b, x);
-        int wrong = NAME_least_wrong(contacts, set, active, b, x);
+        int wrong = NAME_least_wrong(contacts, open, active, b, x);
         if (wrong < 0) {
             return 1;
         }
         /* an active one that closes all the same depends on others: it takes the place of one of them */
         if (active[wrong] && x[wrong] == 0) {
-            wrong = NAME_exchanged(contacts, active, wrong, x);
+            wrong = NAME_exchanged(contacts, active, wrong, bound, x);
         }
         if (wrong < 0) {
             return 0;
@@ -115,37 +119,35 @@ static int NAME_complementary(const real *contacts, const int *set, const real *
 /* Adds what impulses or forces at stops do to velocities, accelerations or multipliers. */
 static void NAME_add_responses(const real *contacts, const real *x, int from, int count, real *to)
 {
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+    for (int stop = 0; stop < CAPS_ROWS; stop++) {
         if (x[stop] != 0) {
             NAME_add(to, x[stop], contacts + stop * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS) + from, count);
         }
     }
 }
 
-/* Marks the stops that are rested on; true if there is one. */
+/* Marks the stops that are rested on and the frictions that stick; true if there is one. */
 static int NAME_find_held(const struct NAME_run *run, int *held)
 {
     int is_held = 0;
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        held[stop] = NAME_elements(&run->inputs)[NAME_stop_places[stop]] > (real)0.5;
-        is_held = is_held || held[stop];
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        const real memory = NAME_elements(&run->inputs)[NAME_memories[row]];
+        held[row] = row < CAPS_STOPS ? memory > (real)0.5 : fabs((double)memory) < 0.5;
+        is_held = is_held || held[row];
     }
     return is_held;
 }
 
-/* Adds what the stops do that are rested on; the growth of the responses. */
-static real NAME_press(const struct NAME_run *run, struct NAME_reactions *reactions)
+/* Adds to accelerations and multipliers what some stops and frictions do that hold; their forces, and the growth. */
+static real NAME_press_with(
+    const struct NAME_run *run, const int *held, struct NAME_reactions *reactions, real *forces)
 {
     const struct NAME_state *const at = &run->state;
-    real gaps[3 * CAPS_STOPS] = {0}, contacts[CAPS_CONTACTS] = {0}, b[CAPS_STOPS], forces[CAPS_STOPS];
-    int held[CAPS_STOPS];
-    if (!NAME_find_held(run, held)) {
-        return 0;
-    }
+    real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, b[CAPS_ROWS];
     NAME_compute_gaps(run->mechanism, at->t, &at->q, &at->v, reactions, gaps);
     NAME_compute_contacts(run->mechanism, at->t, &at->q, contacts);
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        b[stop] = gaps[3 * stop + 2];
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        b[row] = gaps[3 * row + 2];
     }
     NAME_solve_at_stops(contacts, held, b, forces);
     NAME_add_responses(contacts, forces, 0, CAPS_COORDINATES, NAME_places(&reactions->acceleration));
@@ -154,3 +156,10 @@ static real NAME_press(const struct NAME_run *run, struct NAME_reactions *reacti
     return contacts[CAPS_CONTACTS - 1];
 }
 
+/* Adds what the stops do that are rested on, and the frictions that stick; the growth of the responses. */
+static real NAME_press(const struct NAME_run *run, struct NAME_reactions *reactions)
+{
+    int held[CAPS_ROWS];
+    real forces[CAPS_ROWS];
+    return NAME_find_held(run, held) ? NAME_press_with(run, held, reactions, forces) : 0;
+}

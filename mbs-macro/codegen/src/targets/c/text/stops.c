@@ -4,42 +4,19 @@
 static void NAME_note_stops(struct NAME_run *run, const int *held, const real *impulses)
 {
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        real *const memory = NAME_places(&run->inputs) + NAME_stop_places[stop];
+        real *const memory = NAME_places(&run->inputs) + NAME_memories[stop];
         memory[0] = held[stop] ? 1 : 0;
         memory[1] = memory[1] + impulses[stop];
     }
 }
 
-/* The first stop of a set has no answer. */
-static int NAME_unanswered(struct NAME_run *run, const int *set)
-{
-    int first = 0;
-    while (first < CAPS_STOPS - 1 && !set[first]) {
-        first++;
-    }
-    run->where = NAME_stop_places[first];
-    return CAPS_IMPACT;
-}
-
 /* The rates with which gaps open that close with others. */
 static void NAME_rebound(const struct NAME_run *run, const real *rates, real *rebounds)
 {
-    real laws[2 * CAPS_STOPS] = {0};
+    real laws[2 * CAPS_STOPS + 1] = {0};
     NAME_compute_stop_laws(run->mechanism, laws);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         rebounds[stop] = rates[stop] < 0 ? -(laws[2 * stop] * rates[stop]) : 0;
-    }
-}
-
-/* Adds to rates of gaps their changes by impulses. */
-static void NAME_change_rates(const real *contacts, const real *impulses, real *rates)
-{
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        real change = 0;
-        for (int by = 0; by < CAPS_STOPS; by++) {
-            change = change + NAME_mobility(contacts, stop, by) * impulses[by];
-        }
-        rates[stop] = rates[stop] + change;
     }
 }
 
@@ -47,7 +24,8 @@ static void NAME_change_rates(const real *contacts, const real *impulses, real *
    where there are none. */
 static int NAME_hold_back(const real *contacts, const int *set, const real *change, real *taken)
 {
-    const int is_answered = NAME_complementary(contacts, set, change, taken);
+    const int none[CAPS_ROWS] = {0};
+    const int is_answered = NAME_complementary(contacts, set, none, change, taken);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         taken[stop] = NAME_mobility(contacts, stop, stop) * taken[stop];
     }
@@ -57,29 +35,26 @@ static int NAME_hold_back(const real *contacts, const int *set, const real *chan
 /* Half of what the forces of rest do in a step, before it. */
 static int NAME_push(struct NAME_run *run, int *pushed)
 {
-    const struct NAME *const m = run->mechanism;
     struct NAME_state *const at = &run->state;
-    const struct NAME_constraints no_feedback = {0};
     const real half = (real)0.5 * run->step;
-    struct NAME_reactions reactions = {0};
-    real gaps[3 * CAPS_STOPS] = {0}, contacts[CAPS_CONTACTS] = {0}, b[CAPS_STOPS], forces[CAPS_STOPS];
-    int held[CAPS_STOPS];
+    real contacts[CAPS_CONTACTS] = {0}, forces[CAPS_ROWS] = {0};
+    int held[CAPS_ROWS], resting[CAPS_ROWS] = {0}, still[CAPS_ROWS] = {0};
     if (!NAME_find_held(run, held)) {
         return CAPS_OK;
     }
-    NAME_compute_reactions(
-        m, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions.acceleration, &reactions.multipliers);
-    NAME_compute_gaps(m, at->t, &at->q, &at->v, &reactions, gaps);
-    NAME_compute_contacts(m, at->t, &at->q, contacts);
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        b[stop] = gaps[3 * stop + 2];
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        resting[row] = row < CAPS_STOPS && held[row];
+        still[row] = row >= CAPS_STOPS && held[row];
     }
-    if (!NAME_complementary(contacts, held, b, forces)) {
-        return NAME_unanswered(run, held);
+    const int code = NAME_decide(run, resting, still, forces);
+    if (code != CAPS_OK) {
+        return code;
     }
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        pushed[stop] = forces[stop] > 0;
-        forces[stop] = half * forces[stop];
+    NAME_find_held(run, held);
+    NAME_compute_contacts(run->mechanism, at->t, &at->q, contacts);
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        pushed[row] = forces[row] > 0 || (row >= CAPS_STOPS && held[row]);
+        forces[row] = half * forces[row];
     }
     NAME_add_responses(contacts, forces, 0, CAPS_COORDINATES, NAME_places(&at->v));
     return CAPS_OK;
@@ -87,11 +62,11 @@ static int NAME_push(struct NAME_run *run, int *pushed)
 
 /* A step that ends at stops: the rates of gaps at its start and its end, and the impulses that answer them. */
 struct NAME_answer {
-    real before[CAPS_STOPS], now[CAPS_STOPS], gap_now[CAPS_STOPS];
+    real before[CAPS_ROWS], now[CAPS_ROWS], gap_now[CAPS_ROWS];
     /* the part of the step behind the closing of a gap, and what an impulse moves positions by */
-    real rest[CAPS_STOPS], shift[CAPS_STOPS];
-    int closed[CAPS_STOPS], held[CAPS_STOPS], is_impact;
-    real impulses[CAPS_STOPS], moved[CAPS_STOPS], gaps[CAPS_STOPS];
+    real rest[CAPS_ROWS], shift[CAPS_ROWS];
+    int closed[CAPS_ROWS], held[CAPS_ROWS], is_impact;
+    real impulses[CAPS_ROWS], moved[CAPS_ROWS], gaps[CAPS_ROWS];
 };
 
 /* An impact at the gaps that are closing, with these rates; 0 where no impulses answer it. */
@@ -99,8 +74,9 @@ static int NAME_hit(
     const struct NAME_run *run, const real *contacts, const real *rates, const int *closing, const int *hit, int turn,
     struct NAME_answer *it)
 {
-    real change[CAPS_STOPS], taken[CAPS_STOPS], approach[CAPS_STOPS], thrown[CAPS_STOPS], wanted[CAPS_STOPS];
-    real more[CAPS_STOPS];
+    real change[CAPS_ROWS] = {0}, taken[CAPS_ROWS] = {0}, approach[CAPS_ROWS] = {0}, thrown[CAPS_ROWS] = {0}, wanted[CAPS_ROWS] = {0};
+    real more[CAPS_ROWS] = {0};
+    const int none[CAPS_ROWS] = {0};
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         change[stop] = it->now[stop] - it->before[stop];
         approach[stop] = turn == 0 ? it->now[stop] - it->rest[stop] * change[stop] : rates[stop];
@@ -118,7 +94,7 @@ static int NAME_hit(
         const real target = it->held[stop] ? 0 : thrown[stop] + later;
         wanted[stop] = rates[stop] - (target > 0 ? target : 0);
     }
-    if (!NAME_complementary(contacts, closing, wanted, more)) {
+    if (!NAME_complementary(contacts, closing, none, wanted, more)) {
         return 0;
     }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
@@ -134,8 +110,8 @@ static int NAME_find_impulses(const struct NAME_run *run, const real *contacts, 
         return 0;
     }
     for (int turn = 0; turn <= 16; turn++) {
-        real rates[CAPS_STOPS];
-        int closing[CAPS_STOPS], hit[CAPS_STOPS], is_hit = 0;
+        real rates[CAPS_ROWS] = {0};
+        int closing[CAPS_ROWS] = {0}, hit[CAPS_ROWS] = {0}, is_hit = 0;
         for (int stop = 0; stop < CAPS_STOPS; stop++) {
             it->moved[stop] = it->impulses[stop] * it->shift[stop];
             it->gaps[stop] = it->gap_now[stop];
@@ -167,7 +143,7 @@ static int NAME_find_impulses(const struct NAME_run *run, const real *contacts, 
 }
 
 /* Leads the end of a step back from the stops that are closed there, or that are closed by impulses at these. */
-static int NAME_strike(struct NAME_run *run, const int *pushed, const struct NAME_state *before)
+static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const struct NAME_state *before)
 {
     const struct NAME *const m = run->mechanism;
     struct NAME_state *const at = &run->state;
@@ -175,8 +151,8 @@ static int NAME_strike(struct NAME_run *run, const int *pushed, const struct NAM
     struct NAME_answer it = {0};
     struct NAME_coordinates of_q = {0}, of_v = {0}, begun = {0};
     struct NAME_constraints rows = {0};
-    real now[3 * CAPS_STOPS] = {0}, was[3 * CAPS_STOPS] = {0}, rated[3 * CAPS_STOPS] = {0};
-    real contacts[CAPS_CONTACTS] = {0}, shifts[CAPS_STOPS];
+    real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, rated[3 * CAPS_ROWS] = {0};
+    real contacts[CAPS_CONTACTS] = {0}, shifts[CAPS_ROWS] = {0};
     int is_closed = 0;
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
@@ -231,10 +207,11 @@ static int NAME_touch(struct NAME_run *run)
     const struct NAME_constraints no_feedback = {0};
     const double size = 1e-9 * (1e-3 + (double)NAME_largest(NAME_elements(&at->q), CAPS_LINES));
     struct NAME_reactions reactions = {0};
-    real gaps[3 * CAPS_STOPS] = {0}, contacts[CAPS_CONTACTS] = {0}, thrown[CAPS_STOPS], taken[CAPS_STOPS];
-    real b[CAPS_STOPS], forces[CAPS_STOPS];
-    const real none[CAPS_STOPS] = {0};
-    int closed[CAPS_STOPS], settled[CAPS_STOPS];
+    real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, thrown[CAPS_ROWS] = {0}, taken[CAPS_ROWS] = {0};
+    real b[CAPS_ROWS] = {0}, forces[CAPS_ROWS] = {0};
+    const real none[CAPS_ROWS] = {0};
+    int closed[CAPS_ROWS] = {0}, settled[CAPS_ROWS] = {0}, still[CAPS_ROWS] = {0};
+    NAME_slide(run, still);
     NAME_compute_reactions(
         run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions.acceleration,
         &reactions.multipliers);
@@ -252,7 +229,7 @@ static int NAME_touch(struct NAME_run *run)
             slope = slope + fabs((double)slopes[j]);
         }
         if ((double)gaps[3 * stop] < -(size * slope)) {
-            run->where = NAME_stop_places[stop];
+            run->where = NAME_memories[stop];
             return CAPS_BEHIND;
         }
         closed[stop] = (double)gaps[3 * stop] <= size * slope;
@@ -263,10 +240,10 @@ static int NAME_touch(struct NAME_run *run)
     }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         settled[stop] = closed[stop] && gaps[3 * stop + 1] <= taken[stop] && thrown[stop] <= taken[stop];
-        b[stop] = gaps[3 * stop + 2];
     }
-    if (!NAME_complementary(contacts, settled, b, forces)) {
-        return NAME_unanswered(run, settled);
+    const int code = NAME_decide(run, settled, still, forces);
+    if (code != CAPS_OK) {
+        return code;
     }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         settled[stop] = forces[stop] > 0;
@@ -290,10 +267,11 @@ int NAME_start_from(struct NAME_run *run, const struct NAME_state *state)
 int NAME_step(struct NAME_run *run)
 {
     const struct NAME_run before = *run;
-    int pushed[CAPS_STOPS] = {0};
+    int pushed[CAPS_ROWS] = {0};
     int code = NAME_push(run, pushed);
     code = code == CAPS_OK ? NAME_step_free(run) : code;
-    code = code == CAPS_OK ? NAME_strike(run, pushed, &before.state) : code;
+    code = code == CAPS_OK ? NAME_strike_stops(run, pushed, &before.state) : code;
+    code = code == CAPS_OK ? NAME_halt(run, pushed, &before.state) : code;
     if (code != CAPS_OK) {
         const int where = run->where;
         *run = before;

@@ -1,8 +1,13 @@
 // Stops at the ends of steps: time stepping by Moreau and Jean; see `stops.c`.
-class AtStops extends Start {
-  // A set of stops, and a number per stop.
+class AtStops extends Sticking {
+  // A set of contacts, or a number per contact: stops, and behind them frictions that stick.
   each(what) {
     return Array.from({ length: this.tables.stops.length }, (_, stop) => what(stop));
+  }
+
+  // True of stops, false of frictions.
+  isStop(row) {
+    return row < this.tables.stops.length - this.tables.frictions;
   }
 
   // Gap, rate and second derivative of every stop.
@@ -58,23 +63,24 @@ class AtStops extends Start {
   }
 
   // The first active stop whose impulse becomes 0 where that of one grows that depends on them; -1 where there is none.
-  exchanged(active, by, x) {
+  exchanged(active, by, bound, x) {
     const shares = this.solveAtStops(active.map((it, stop) => it && stop !== by), this.each((of) => -this.mobility(of, by)));
     return shares.reduce((first, share, stop) => {
-      const isFirst = share > 1e-10 && (first < 0 || x[stop] / share < x[first] / shares[first]);
+      const isFirst = !bound[stop] && share > 1e-10 && (first < 0 || x[stop] / share < x[first] / shares[first]);
       return isFirst ? stop : first;
     }, -1);
   }
 
-  // x >= 0 with W x + b >= 0 at the stops of a set, one or the other 0 at each, by pivots of the least index.
-  complementary(set, b) {
-    const active = this.each(() => false);
+  // x >= 0 with W x + b >= 0 at the stops of a set, one or the other 0 at each, by pivots of the least index; W x + b = 0 at
+  // those that are bound.
+  complementary(set, b, bound = this.each(() => false)) {
+    const active = set.map((it, stop) => it && bound[stop]), open = set.map((it, stop) => it && !bound[stop]);
     for (let pivots = 0; pivots < 512; pivots++) {
       const x = this.solveAtStops(active, b);
-      let wrong = this.leastWrong(set, active, b, x);
+      let wrong = this.leastWrong(open, active, b, x);
       if (wrong < 0) return x;
       // an active one that closes all the same depends on others: it takes the place of one of them
-      if (active[wrong] && x[wrong] === 0) wrong = this.exchanged(active, wrong, x);
+      if (active[wrong] && x[wrong] === 0) wrong = this.exchanged(active, wrong, bound, x);
       if (wrong < 0) break;
       active[wrong] = !active[wrong];
     }
@@ -96,7 +102,7 @@ class AtStops extends Start {
 
   // Sets the memories of stops: which are rested on, and what impulses add up to.
   noteStops(held, impulses) {
-    this.tables.stops.forEach((memory, stop) => {
+    this.tables.stops.filter((_, stop) => this.isStop(stop)).forEach((memory, stop) => {
       this.inputs[memory] = held[stop] ? 1 : 0;
       this.inputs[memory + 1] = this.inputs[memory + 1] + impulses[stop];
     });
@@ -106,7 +112,7 @@ class AtStops extends Start {
   rebounds(rates) {
     const { stopLaws } = this.mechanism;
     this.mechanism.call("stop_laws", stopLaws);
-    return rates.map((rate, stop) => (rate < 0 ? -(stopLaws[2 * stop] * rate) : 0));
+    return rates.map((rate, stop) => (this.isStop(stop) && rate < 0 ? -(stopLaws[2 * stop] * rate) : 0));
   }
 
   // Rates of gaps, changed by impulses.
@@ -122,25 +128,38 @@ class AtStops extends Start {
 
   // Adds what the stops do that are rested on; the growth of the responses.
   press(reactions) {
-    const m = this.mechanism, n = this.q.length, held = this.tables.stops.map((memory) => this.inputs[memory] > 0.5);
-    if (!held.includes(true)) return 0;
+    const held = this.held();
+    return held.includes(true) ? this.pressWith(held, reactions).growth : 0;
+  }
+
+  // The stops that are rested on, and the frictions that stick.
+  held() {
+    return this.tables.stops.map((memory, row) =>
+      this.isStop(row) ? this.inputs[memory] > 0.5 : Math.abs(this.inputs[memory]) < 0.5);
+  }
+
+  // Adds what some stops and frictions do that hold; their forces, and the growth.
+  pressWith(held, reactions) {
+    const m = this.mechanism, n = this.q.length;
     const gaps = this.gapsAt(this.t, this.q, this.v, reactions);
     m.call("contacts", this.t, this.q, m.contacts);
     const forces = this.solveAtStops(held, gaps.map(({ second }) => second));
     this.addResponses(forces, 0, reactions.subarray(0, n));
     this.addResponses(forces, n, reactions.subarray(n));
-    return m.contacts[m.contacts.length - 1];
+    return { forces, growth: m.contacts[m.contacts.length - 1] };
   }
 
   // Rests on the stops that a start touches; one behind a stop is refused.
   touch() {
     const m = this.mechanism, n = this.q.length, { lines, stops, constraints } = this.tables;
     if (!stops.length) return;
+    const still = this.slide();
     m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
     const gaps = this.gapsAt(this.t, this.q, this.v, m.reactions), thrown = this.rebounds(gaps.map(({ rate }) => rate));
     m.call("contacts", this.t, this.q, m.contacts);
     const size = 1e-9 * (1e-3 + largest(this.q.subarray(0, lines)));
     const closed = gaps.map(({ gap }, stop) => {
+      if (!this.isStop(stop)) return false;
       const begin = this.responses(stop) + n + constraints.length;
       const slope = m.contacts.subarray(begin, begin + n).reduce((sum, it) => sum + Math.abs(it), 0);
       if (gap < -(size * slope)) this.failAtStop("BEHIND", stop);
@@ -148,20 +167,19 @@ class AtStops extends Start {
     });
     const taken = this.taken(closed, gaps.map(({ second }) => this.h * second));
     const settled = closed.map((it, stop) => it && gaps[stop].rate <= taken[stop] && thrown[stop] <= taken[stop]);
-    const forces = this.complementary(settled, gaps.map(({ second }) => second));
+    const forces = this.decide(settled, still);
     this.noteStops(forces.map((force) => force > 0), this.each(() => 0));
   }
 
   // Half of what the forces of rest do in a step, before it; the stops that push.
   push() {
-    const m = this.mechanism, n = this.q.length, held = this.tables.stops.map((memory) => this.inputs[memory] > 0.5);
+    const m = this.mechanism, held = this.held(), half = 0.5 * this.h;
     if (!held.includes(true)) return held;
-    m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
-    const gaps = this.gapsAt(this.t, this.q, this.v, m.reactions), half = 0.5 * this.h;
+    const forces = this.decide(held.map((it, row) => it && this.isStop(row)), held.map((it, row) => it && !this.isStop(row)));
+    const holds = this.held();
     m.call("contacts", this.t, this.q, m.contacts);
-    const forces = this.complementary(held, gaps.map(({ second }) => second));
     this.addResponses(forces.map((force) => half * force), 0, this.v);
-    return forces.map((force) => force > 0);
+    return forces.map((force, row) => force > 0 || (!this.isStop(row) && holds[row]));
   }
 
   // The impulses at the stops that are closed at the end of a step, or that impulses close, one impact after the other.
@@ -171,7 +189,7 @@ class AtStops extends Start {
     for (let turn = 0; ; turn++) {
       const moved = impulses.map((impulse, stop) => impulse * shift[stop]);
       const gaps = this.changed(gap, moved), rates = this.changed(now, impulses);
-      gaps.forEach((it, stop) => { closed[stop] = closed[stop] || it <= 0; });
+      gaps.forEach((it, stop) => { closed[stop] = closed[stop] || (this.isStop(stop) && it <= 0); });
       const still = rates.map((_, stop) => 1e-12 * impulses.reduce(
         (size, impulse, by) => size + Math.abs(this.mobility(stop, by) * impulse),
         Math.abs(before[stop]) + Math.abs(now[stop])));
@@ -201,7 +219,7 @@ class AtStops extends Start {
   strike(pushed, before) {
     const m = this.mechanism, n = this.q.length;
     const now = this.gapsAt(this.t, this.q, this.v, m.unmoved);
-    const closed = now.map(({ gap }, stop) => pushed[stop] || gap <= 0);
+    const closed = now.map(({ gap }, stop) => this.isStop(stop) && (pushed[stop] || gap <= 0));
     if (!closed.includes(true)) {
       this.noteStops(closed, this.each(() => 0));
       return;
@@ -243,6 +261,7 @@ class AtStops extends Start {
       const pushed = this.push();
       step();
       this.strike(pushed, { t, q, v });
+      this.halt(pushed, { t, q, v });
     } catch (failure) {
       Object.assign(this, { t, steps, alarm, worstGrowth });
       this.q.set(q);

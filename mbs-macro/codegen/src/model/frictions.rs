@@ -1,0 +1,114 @@
+//! Friction that sticks, `law = coulomb`: its memories, and the way along which it holds.
+//!
+//! A memory has the direction of sliding, −1 or 1, and is 0 while friction sticks; another one has the force with which
+//! it holds. Where it sticks a run asks for the response of the mechanism to an impulse along ∂s/∂q, s how far it has slid,
+//! as it does at [stops](super::stops).
+
+use mbs_symbolic::units::Unit;
+use mbs_symbolic::{Algebra, Expr, Stage};
+use proc_macro2::Ident;
+
+use super::declare::quantity;
+use super::elements::words_of;
+use super::known::Value;
+use super::resolver::Resolver;
+use super::{Contact, Friction, Meaning};
+use crate::diagnostics::Diagnostic;
+use crate::mechanics::elements::{COULOMB, Sticks};
+use crate::quantity::Setting;
+use crate::syntax::Element;
+
+impl Resolver<'_> {
+    /// The memories of friction that sticks: which way it slides, and the force that holds it.
+    pub(super) fn declare_friction(&mut self, element: &Element) {
+        if !words_of(element).values().any(|word| *word == COULOMB) {
+            return;
+        }
+        self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
+        let [direction, held] = memories_of(&element.name);
+        let docs = ["the direction in which it slides, 0 while it sticks", "the force with which it sticks"];
+        for (name, doc) in [&direction, &held].into_iter().zip(docs) {
+            let meaning = Meaning::Input(self.inputs.len());
+            let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, meaning);
+            if *name == direction {
+                let value = Value::Symbol { symbol, dimension: Unit::ONE.dimension, span: name.span() };
+                self.scope.declare(name, value, &mut self.errors);
+            }
+            self.inputs.push(Setting { quantity: quantity(name, doc, "", Unit::ONE), value: 0.0 });
+        }
+    }
+
+    /// The place of the first memory of an element among the inputs, if it has any.
+    fn friction_memory(&self, name: &Ident) -> Option<usize> {
+        let [direction, _] = memories_of(name);
+        let memories = self.inputs.iter().enumerate().skip(self.scope.first_memory);
+        memories.into_iter().find(|(_, input)| direction == input.quantity.name).map(|(at, _)| at)
+    }
+
+    /// The memories of an element that sticks.
+    pub(super) fn friction_memories(&mut self, element: &Element) -> Option<[Expr; 2]> {
+        let sticks = words_of(element).values().any(|word| *word == COULOMB);
+        let memory = self.friction_memory(&element.name).filter(|_| sticks)?;
+        let symbols = [
+            self.scope.symbol_of(Meaning::Input(memory))?,
+            self.scope.symbol_of(Meaning::Input(memory + 1))?,
+        ];
+        Some(symbols.map(|symbol| self.scope.arena.variable(symbol)))
+    }
+
+    /// Enters friction that sticks.
+    pub(super) fn push_friction(&mut self, name: &Ident, Sticks { slip, limits }: Sticks) {
+        let Some(memory) = self.friction_memory(name) else { return };
+        let contact = self.contact(slip);
+        let quantity = quantity(name, "", "", Unit::ONE);
+        self.frictions.push(Friction { quantity, contact, limits, memory, span: name.span() });
+    }
+
+    /// A value of positions with its derivatives.
+    pub(super) fn contact(&mut self, gap: Expr) -> Contact {
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let motion = &self.scope.motion;
+        let scalar = algebra.scalar(gap);
+        let slopes = motion.slopes(scalar);
+        let rate = motion.rate(scalar);
+        let curved = motion.rate(rate);
+        let (rate, curved) = (rate.expr(), curved.expr());
+        let mut acceleration = curved;
+        for &(at, slope) in &slopes {
+            let Some(of_coordinate) = self.scope.symbol_of(Meaning::Acceleration(at)) else { continue };
+            let arena = &mut self.scope.arena;
+            let of_coordinate = arena.variable(of_coordinate);
+            let term = arena.mul(slope, of_coordinate);
+            acceleration = arena.add(acceleration, term);
+        }
+        Contact { gap, rate, acceleration, slopes }
+    }
+
+    /// Refuses what does not go with friction that sticks.
+    pub(super) fn check_frictions(&mut self) {
+        let Some(friction) = self.frictions.first() else { return };
+        let (name, span) = (friction.quantity.name.clone(), friction.span);
+        let mut refuse = |message: String, help: &str| {
+            self.errors.push(Diagnostic::new(span, message).help(help));
+        };
+        let smooth = "take `law = smooth;` with a `transition`";
+        if self.solver.has_reduced_states() {
+            refuse(
+                format!("`{name}` sticks along coordinates that are not integrated"),
+                "leave `states = reduced;` out where friction sticks",
+            );
+        }
+        if self.solver.reverse.is_some() {
+            refuse(format!("no way leads back through the sticking of `{name}`"), smooth);
+        }
+        if self.reactive_loads.len() > 1 {
+            refuse(format!("`{name}` sticks where several forces depend on reactions"), smooth);
+        }
+    }
+}
+
+/// The names of the memories of friction that sticks.
+fn memories_of(name: &Ident) -> [Ident; 2] {
+    ["direction", "held"]
+        .map(|what| Ident::new(&format!("{}_{what}", name.to_string().trim_start_matches("r#")), name.span()))
+}

@@ -1,0 +1,171 @@
+// Friction that sticks: which of it does, with which forces, and at the ends of steps; see `sticking.c`.
+class Sticking extends Start {
+  // The direction in which friction slides; 0 while it sticks.
+  direction(row) {
+    return this.inputs[this.tables.stops[row]];
+  }
+
+  // Sets the memories of friction: its direction and the force with which it sticks.
+  setFriction(row, direction, held) {
+    this.inputs[this.tables.stops[row]] = direction;
+    this.inputs[this.tables.stops[row] + 1] = held;
+  }
+
+  // The rows of frictions.
+  frictions() {
+    return this.each((row) => row).filter((row) => !this.isStop(row));
+  }
+
+  // The size of every friction while it slides, and the largest one with which it sticks.
+  limits(reactions) {
+    const m = this.mechanism, stops = this.tables.stops.length - this.tables.frictions;
+    m.call("limits", this.t, this.q, this.v, this.inputs, reactions, m.limits);
+    return this.each((row) => (row < stops ? {} : { sliding: m.limits[2 * (row - stops)], most: m.limits[2 * (row - stops) + 1] }));
+  }
+
+  // The friction of a set whose force is most beyond its limit; -1 where none is.
+  loose(set, forces, limits) {
+    let worst = 0;
+    return this.frictions().reduce((loose, row) => {
+      const force = Math.abs(forces[row]), most = limits[row];
+      // what has no largest force does not stick
+      const beyond = !(most > 0) ? Infinity : force > (1 + 1e-12) * most ? force / most : 0;
+      if (!set[row] || beyond <= worst) return loose;
+      worst = beyond;
+      return row;
+    }, -1);
+  }
+
+  // The forces of which of the frictions stick that do not move, and of stops that are rested on.
+  decide(resting, still) {
+    const m = this.mechanism, n = this.q.length, sticking = still.slice(), rows = this.frictions();
+    for (let tries = 0; tries <= 8 * rows.length; tries++) {
+      rows.filter((row) => sticking[row]).forEach((row) => this.setFriction(row, 0, 0));
+      m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
+      const b = this.gapsAt(this.t, this.q, this.v, m.reactions).map(({ second }) => second);
+      m.call("contacts", this.t, this.q, m.contacts);
+      const forces = this.complementary(resting.map((it, row) => it || sticking[row]), b, sticking);
+      this.addResponses(forces, 0, m.reactions.subarray(0, n));
+      this.addResponses(forces, n, m.reactions.subarray(n));
+      if (!rows.length) return forces;
+      const most = this.limits(m.reactions).map((limit) => limit.most);
+      const loose = this.loose(sticking, forces, most);
+      if (loose >= 0) {
+        this.setFriction(loose, forces[loose] > 0 ? -1 : 1, 0);
+        sticking[loose] = false;
+        continue;
+      }
+      const changes = this.changed(this.each(() => 0), forces);
+      const turned = rows.find((row) => {
+        const least = 2 * 1e-6 * this.mobility(row, row) * most[row];
+        return still[row] && !sticking[row] && least > 0 && this.direction(row) * (b[row] + changes[row]) < -least;
+      });
+      if (turned === undefined) {
+        rows.filter((row) => sticking[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
+        return forces;
+      }
+      sticking[turned] = true;
+    }
+    return this.failAtStop("JAMMED", still.indexOf(true));
+  }
+
+  // Sets the memories of the forces with which frictions stick.
+  hold() {
+    const m = this.mechanism, n = this.q.length, held = this.held(), rows = this.frictions();
+    rows.forEach((row) => this.setFriction(row, this.direction(row), 0));
+    if (!rows.some((row) => held[row])) return;
+    m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
+    const { forces } = this.pressWith(held, m.reactions);
+    rows.filter((row) => held[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
+  }
+
+  // Sets the directions of the frictions that move at a start; those that do not.
+  slide() {
+    const m = this.mechanism, energy = m.call("kinetic_energy", this.t, this.q, this.v);
+    const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved);
+    m.call("contacts", this.t, this.q, m.contacts);
+    return gaps.map(({ rate }, row) => {
+      if (this.isStop(row)) return false;
+      const own = this.mobility(row, row), fastest = Math.sqrt(2 * (energy > 0 ? energy : 0) * (own > 0 ? own : 0));
+      const isStill = Math.abs(rate) <= 1e-9 * fastest;
+      if (!isStill) this.setFriction(row, rate > 0 ? 1 : -1, 0);
+      return isStill;
+    });
+  }
+
+  // Half a step of those that stuck, and the rest of the step of those that have come to a halt in it.
+  halting(stuck, crossed, was, ends, limits) {
+    const { h } = this, none = { given: 0, most: 0, loose: 0, shift: 0 };
+    return limits.map(({ sliding, most }, row) => {
+      if (crossed[row]) {
+        const from = was[row], part = this.direction(row) * from > 0 ? 1 - from / (from - ends[row]) : 1, rest = part * h;
+        return { given: 0, most: rest * (sliding + most), loose: rest * (sliding + sliding), shift: 0.5 * rest };
+      }
+      if (!stuck[row]) return none;
+      const held = this.inputs[this.tables.stops[row] + 1];
+      return { given: 0.5 * h * held, most: h * most, loose: h * sliding, shift: 0 };
+    });
+  }
+
+  // The impulses; the worst of those that need more than they can have slides on.
+  findHalts(resting, rates, halted, halting) {
+    const fixed = this.each(() => 0), directions = this.each(() => 0);
+    for (;;) {
+      const b = this.changed(rates, fixed);
+      const x = this.solveAtStops(halted.map((it, row) => it || resting[row]), b);
+      const total = x.map((it, row) => it + halting[row].given);
+      const loose = this.loose(halted, total, halting.map(({ most }) => most));
+      if (loose < 0) return { impulses: x.map((it, row) => it + fixed[row]), directions };
+      fixed[loose] = (total[loose] > 0 ? halting[loose].loose : -halting[loose].loose) - halting[loose].given;
+      directions[loose] = total[loose] > 0 ? -1 : 1;
+      halted[loose] = false;
+    }
+  }
+
+  // Answers friction at the end of a step, behind what stops did.
+  halt(pushed, before) {
+    const m = this.mechanism, n = this.q.length, rows = this.frictions();
+    if (!rows.length) return;
+    const now = this.gapsAt(this.t, this.q, this.v, m.unmoved).map(({ rate }) => rate), ends = now.slice();
+    const stuck = pushed.map((it, row) => it && !this.isStop(row));
+    const crossed = now.map((rate, row) => !this.isStop(row) && this.direction(row) * rate < 0);
+    if (!stuck.includes(true) && !crossed.includes(true)) {
+      this.hold();
+      return;
+    }
+    const held = this.held();
+    m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
+    if (held.includes(true)) this.pressWith(held, m.reactions);
+    const limits = this.limits(m.reactions);
+    m.trialQ.set(before.q);
+    m.trialV.set(before.v);
+    const was = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved).map(({ rate }) => rate);
+    m.call("contacts", this.t, this.q, m.contacts);
+    const acts = stuck.map((it, row) => it || crossed[row]);
+    if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("JAMMED", acts.indexOf(true));
+    const resting = held.map((it, row) => it && this.isStop(row));
+    // whether what slides has come to a halt is seen with the impulses of what sticks
+    crossed.fill(false);
+    for (;;) {
+      const halting = this.halting(stuck, crossed, was, ends, limits);
+      const { impulses, directions } =
+        this.findHalts(resting, now, stuck.map((it, row) => it || crossed[row]), halting);
+      const rates = this.changed(now, impulses);
+      const late = rows.filter((row) => !stuck[row] && !crossed[row] && this.direction(row) * rates[row] < 0);
+      if (!late.length) {
+        const ofQ = new Float64Array(n), ofV = new Float64Array(n);
+        this.addResponses(impulses.map((impulse, row) => impulse * halting[row].shift), 0, ofQ);
+        this.addResponses(impulses, 0, ofV);
+        add(this.q, 1, ofQ);
+        add(this.v, 1, ofV);
+        rows.filter((row) => stuck[row] || crossed[row]).forEach((row) => this.setFriction(row, directions[row], 0));
+        break;
+      }
+      late.forEach((row) => {
+        ends[row] = rates[row];
+        crossed[row] = true;
+      });
+    }
+    this.hold();
+  }
+}

@@ -1,0 +1,207 @@
+//! Dry friction that sticks: which of it does, and with which forces.
+//!
+//! Friction of size L that has slid by s, with a force along ∂s/∂q, is in one of three modes: it slides forwards with the
+//! force −L, backwards with L, or it sticks, ṡ = 0, with a force of at most L₀ ≥ L (Coulomb's law). A memory of the run has
+//! the direction. Where ṡ is 0, forces decide:
+//!
+//! ```text
+//! s̈ = 0 and |λ| ≤ L₀,   or   λ = −L sign(s̈)
+//! ```
+//!
+//! What does not stay within L₀ slides, the worst one first; one that would then move against its direction sticks after
+//! all. With the forces at stops that are rested on this is one problem of few rows.
+
+use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, number};
+use crate::equations::{At, Equations};
+use crate::pressing::{held, pressed};
+use crate::{Error, Info, Real};
+
+/// Friction breaks loose within this share of its largest force, where a run has found that it does.
+const BREAKS: f64 = 1e-6;
+/// A force is within its limit up to rounding by this share.
+const ROUNDING: f64 = 1e-12;
+/// So many changes of modes are tried per friction.
+const TRIES: usize = 8;
+
+/// What a decision starts from, by sets of stops and frictions.
+#[derive(Clone, Copy)]
+pub(crate) struct Undecided {
+    /// The stops that are rested on if they push.
+    pub resting: u32,
+    /// The frictions that do not move.
+    pub still: u32,
+    /// Those of them that were found to break loose.
+    pub breaking: u32,
+}
+
+/// The stops and frictions that hold, and their forces.
+pub(crate) struct Held<T> {
+    pub held: u32,
+    pub forces: Each<T>,
+}
+
+/// The frictions of a mechanism by their rows among its contacts, with the places of their memories.
+pub(crate) fn frictions(info: &Info) -> impl Iterator<Item = (usize, usize)> {
+    let stops = info.stops.len();
+    info.frictions.iter().enumerate().map(move |(at, friction)| (stops + at, friction.memory))
+}
+
+/// The set of all frictions.
+pub(crate) fn all_frictions(info: &Info) -> u32 {
+    frictions(info).fold(0, |set, (row, _)| set | bit(row))
+}
+
+/// The direction in which friction slides, 0 while it sticks.
+pub(crate) fn direction<T: Real>(info: &Info, inputs: &[T], row: usize) -> f64 {
+    let found = frictions(info).find(|(of, _)| *of == row);
+    found.and_then(|(_, memory)| inputs.get(memory)).map_or(0.0, |direction| direction.to_f64())
+}
+
+/// The force with which friction sticks, by its memory.
+pub(crate) fn holding<T: Real>(info: &Info, inputs: &[T], row: usize) -> T {
+    let found = frictions(info).find(|(of, _)| *of == row);
+    found.and_then(|(_, memory)| inputs.get(memory + 1)).copied().unwrap_or_default()
+}
+
+/// Sets the memories of friction: its direction and the force with which it sticks.
+pub(crate) fn set<T: Real>(info: &Info, inputs: &mut [T], row: usize, (direction, held): (f64, T)) {
+    let Some((_, memory)) = frictions(info).find(|(of, _)| *of == row) else { return };
+    if let Some(to) = inputs.get_mut(memory) {
+        *to = T::from_f64(direction);
+    }
+    if let Some(to) = inputs.get_mut(memory + 1) {
+        *to = held;
+    }
+}
+
+/// The sizes of a friction by its row: while it slides, and at most while it sticks.
+pub(crate) struct Limits<T> {
+    stops: usize,
+    values: [T; 2 * MOST_STOPS],
+}
+
+impl<T: Real> Limits<T> {
+    /// In a state with given accelerations and multipliers.
+    pub fn of(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &[T], reactions: [&[T]; 2]) -> Self {
+        let (stops, count) = (equations.info().stops.len(), equations.info().frictions.len());
+        let mut values = [T::default(); 2 * MOST_STOPS];
+        if let Some(values) = values.get_mut(..2 * count) {
+            equations.limits(at, inputs, reactions, values);
+        }
+        Self { stops, values }
+    }
+
+    fn of_row(&self, row: usize, which: usize) -> T {
+        let place = row.checked_sub(self.stops).map(|at| 2 * at + which);
+        place.and_then(|place| self.values.get(place)).copied().unwrap_or_default()
+    }
+
+    /// While it slides.
+    pub fn sliding(&self, row: usize) -> T {
+        self.of_row(row, 0)
+    }
+
+    /// At most, while it sticks.
+    pub fn sticking(&self, row: usize) -> T {
+        self.of_row(row, 1)
+    }
+}
+
+/// Decides which frictions stick and which stops are rested on, and sets the memories of the frictions that are still.
+///
+/// # Errors
+/// [`Error::Jammed`], [`Error::Impact`].
+pub(crate) fn decide<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &mut [T],
+    Undecided { resting, still, breaking }: Undecided,
+    [a, lambda]: [&mut [T]; 2],
+) -> Result<Held<T>, Error> {
+    let info = equations.info();
+    let mut sticking = still;
+    for _ in 0..=TRIES * info.frictions.len() {
+        for (row, _) in frictions(info).filter(|(row, _)| has(sticking, *row)) {
+            set(info, inputs, row, (0.0, T::ZERO));
+        }
+        equations.free_reactions(at, inputs, a, lambda);
+        let gaps = Gaps::of(equations, at, a);
+        let solved = Contacts::at(equations, (at.t, at.q), |contacts| {
+            let (held, forces) = contacts.complementary(resting | sticking, sticking, &gaps.acceleration)?;
+            contacts.add(&forces, a);
+            contacts.react(&forces, lambda);
+            let own = core::array::from_fn(|row| contacts.mobility(row, row).to_f64());
+            Some((held, forces, contacts.rates(&forces), own))
+        });
+        let (held, forces, changes, own) = match solved {
+            Some(solved) => solved.ok_or_else(|| unanswered(info, at.t.to_f64(), resting | sticking))?,
+            None => (0, [T::ZERO; MOST_STOPS], [T::ZERO; MOST_STOPS], [0.0; MOST_STOPS]),
+        };
+        let limits = Limits::of(equations, at, inputs, [a, lambda]);
+        // by how much of its limit a force is beyond it
+        let beyond = |row: usize| {
+            let (force, most) = (number(&forces, row).abs(), limits.sticking(row).to_f64());
+            let allowed = if has(breaking, row) { (1.0 - BREAKS) * most } else { (1.0 + ROUNDING) * most };
+            // what has no largest force does not stick
+            match most > 0.0 {
+                true if force > allowed => force / most,
+                true => 0.0,
+                false => f64::INFINITY,
+            }
+        };
+        let rows = || frictions(info).map(|(row, _)| row);
+        let loose = rows().filter(|row| has(sticking, *row) && beyond(*row) > 0.0);
+        if let Some(row) = loose.reduce(|worst, row| if beyond(row) > beyond(worst) { row } else { worst }) {
+            let direction = if number(&forces, row) > 0.0 { -1.0 } else { 1.0 };
+            set(info, inputs, row, (direction, T::ZERO));
+            sticking &= !bit(row);
+            continue;
+        }
+        let turns = |row: usize| {
+            let acceleration = number(&gaps.acceleration, row) + number(&changes, row);
+            let most = limits.sticking(row).to_f64();
+            let least = 2.0 * BREAKS * own.get(row).copied().unwrap_or(0.0) * most;
+            least > 0.0 && direction(info, inputs, row) * acceleration < -least
+        };
+        if let Some(row) = rows().find(|row| has(still & !sticking, *row) && turns(*row)) {
+            sticking |= bit(row);
+            continue;
+        }
+        for row in rows().filter(|row| has(sticking, *row)) {
+            set(info, inputs, row, (0.0, forces.get(row).copied().unwrap_or_default()));
+        }
+        return Ok(Held { held, forces });
+    }
+    Err(unanswered(info, at.t.to_f64(), still))
+}
+
+/// Nothing answers the first of a set of stops and frictions.
+pub(crate) fn unanswered(info: &Info, t: f64, set: u32) -> Error {
+    let row = set.trailing_zeros() as usize;
+    match row.checked_sub(info.stops.len()).and_then(|at| info.frictions.get(at)) {
+        Some(friction) => Error::Jammed { t, friction: friction.name },
+        None => Error::Impact { t, stop: info.stops.get(row).map_or("", |stop| stop.name) },
+    }
+}
+
+/// Sets the memories of the forces with which frictions stick to those in a state; `a` and `lambda` are to compute with.
+pub fn hold<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &mut [T],
+    [a, lambda]: [&mut [T]; 2],
+) {
+    let info = equations.info();
+    let sticking = held(equations, inputs) & all_frictions(info);
+    for (row, _) in frictions(info) {
+        set(info, inputs, row, (direction(info, inputs, row), T::ZERO));
+    }
+    if sticking == 0 {
+        return;
+    }
+    equations.free_reactions(at, inputs, a, lambda);
+    let (_, forces) = pressed(equations, at, inputs, a, None);
+    for (row, _) in frictions(info).filter(|(row, _)| has(sticking, *row)) {
+        set(info, inputs, row, (0.0, forces.get(row).copied().unwrap_or_default()));
+    }
+}
