@@ -2,6 +2,29 @@
 
 use crate::random::Random;
 
+/// The same with friction that sticks, of the masses against the ground and against each other, and forces that change.
+pub fn rubbing(number: u64) -> String {
+    let (text, _) = random(number);
+    let mut random = Random::new(!number);
+    let mut whole = |from: i64, to: i64| from + random.below((to - from + 1) as usize) as i64;
+    let bodies: Vec<&str> =
+        ["y1", "y2", "y3", "y4"].into_iter().filter(|it| text.contains(&format!("body b{it} "))).collect();
+    let mut frictions = String::new();
+    for (at, body) in bodies.iter().enumerate() {
+        let (coefficient, more, normal) = (whole(0, 4), whole(0, 2), whole(1, 40));
+        let (amplitude, rate) = (whole(0, 30), whole(1, 9));
+        let on =
+            if at > 0 && whole(0, 1) == 1 { format!("b{}", bodies[at - 1]) } else { "ground".to_owned() };
+        frictions += &format!(
+            "    friction f{at} (b{body}, {on}) along (0, 1) {{ coefficient = {coefficient}/8; \
+             static = {}/8; normal = {normal} [N]; law = coulomb; }}\n    force p{at} on {body} = \
+             {amplitude} [N]*sin({rate} [1/s]*t);\n    output h{at} [N] = force(f{at});\n",
+            coefficient + more
+        );
+    }
+    text.trim_end().trim_end_matches('}').to_owned() + &frictions + "}\n"
+}
+
 /// A random mechanism: masses on springs, hung in joints of their own, between stops, some of which say the same or are
 /// reached at once. All start at 0, before every stop or at it.
 pub fn random(number: u64) -> (String, usize) {

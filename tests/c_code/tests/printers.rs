@@ -136,3 +136,13 @@ fn random_mechanisms_between_stops() {
         assert!(compare(&format!("stops {number}"), &text, 1e-3, compiler), "{number} starts");
     }
 }
+
+/// The same with friction that sticks.
+#[test]
+fn random_mechanisms_that_stick() {
+    let Some(&compiler) = compilers().first() else { return };
+    for number in 0..32 / STRIDE as u64 {
+        let text = Text::declaration(format!("sticks {number}"), between_stops::rubbing(number));
+        assert!(compare(&format!("sticks {number}"), &text, 1e-3, compiler), "{number} starts");
+    }
+}

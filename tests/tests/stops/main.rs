@@ -6,6 +6,7 @@ mod energy;
 mod rests;
 mod several;
 mod steps;
+mod sticking;
 
 use mbs_live::{Prepared, Text};
 use mbs_runtime::{
