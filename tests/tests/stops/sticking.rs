@@ -94,8 +94,8 @@ fn a_block_sticks_below_the_angle_of_friction() -> Result<(), Error> {
     let block = |mu: f64| Incline::new(InclineParameters { mu, angle: 20.0_f64.to_radians() });
     let mut run = Adaptive::builder(block(0.37)?).tolerances(TIGHT).build()?;
     run.advance_to(1e4)?;
-    // roundings of a position that is projected
-    assert!(run.state().q.x.abs() < 1e-12, "{}", run.state().q.x);
+    // steps of some 100 s round velocities to ε g h = 2e-13 m/s, over 10⁴ s
+    assert!(run.state().q.x.abs() < 2e-9, "{}", run.state().q.x);
     let mut steps = Simulation::new(block(0.37)?, 1e-2)?;
     steps.advance_to(1e3)?;
     assert!(steps.state().q.x.abs() < 1e-12, "{}", steps.state().q.x);
