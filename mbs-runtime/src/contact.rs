@@ -18,11 +18,11 @@
 use crate::Real;
 use crate::equations::{At, Equations};
 
-/// At most so many stops and frictions that stick has a mechanism.
-pub(crate) const MOST_STOPS: usize = 16;
+/// At most so many contacts has a mechanism: stops, and behind them frictions that stick.
+pub(crate) const MOST_CONTACTS: usize = 16;
 
 /// A number per stop.
-pub(crate) type Each<T> = [T; MOST_STOPS];
+pub(crate) type Each<T> = [T; MOST_CONTACTS];
 
 /// Pivots, after which there is no solution: more than all sets of eight stops.
 const MOST_PIVOTS: usize = 512;
@@ -45,7 +45,7 @@ pub(crate) struct Gaps<T> {
 impl<T: Real> Gaps<T> {
     /// In a state with given accelerations.
     pub fn of(equations: &dyn Equations<T>, at: At<'_, T>, acceleration: &[T]) -> Self {
-        let mut values = [T::default(); 3 * MOST_STOPS];
+        let mut values = [T::default(); 3 * MOST_CONTACTS];
         let count = equations.info().contacts();
         if let Some(values) = values.get_mut(..3 * count) {
             equations.gaps(at, acceleration, values);
@@ -126,8 +126,8 @@ impl<'a, T: Real> Contacts<'a, T> {
 
     /// x of a set of stops with W x + b = 0 there; 0 where it depends on others of the set.
     pub fn solve(&self, set: u32, b: &Each<T>) -> Each<T> {
-        let mut rows = [[T::default(); MOST_STOPS + 1]; MOST_STOPS];
-        let (mut members, mut count) = ([0; MOST_STOPS], 0);
+        let mut rows = [[T::default(); MOST_CONTACTS + 1]; MOST_CONTACTS];
+        let (mut members, mut count) = ([0; MOST_CONTACTS], 0);
         for stop in (0..self.stops).filter(|stop| has(set, *stop)) {
             if let Some(member) = members.get_mut(count) {
                 *member = stop;
@@ -143,7 +143,7 @@ impl<'a, T: Real> Contacts<'a, T> {
                 *last = -*b;
             }
         }
-        let mut solution = [T::default(); MOST_STOPS];
+        let mut solution = [T::default(); MOST_CONTACTS];
         let found = eliminate(&mut rows, count);
         for (&stop, x) in members.iter().zip(found) {
             if let Some(to) = solution.get_mut(stop) {
@@ -226,13 +226,13 @@ impl<'a, T: Real> Contacts<'a, T> {
 }
 
 /// Gauss's elimination of the first rows, symmetric and positive semidefinite, with their right sides behind them.
-fn eliminate<T: Real>(rows: &mut [[T; MOST_STOPS + 1]; MOST_STOPS], count: usize) -> Each<T> {
-    let diagonal: [f64; MOST_STOPS] =
+fn eliminate<T: Real>(rows: &mut [[T; MOST_CONTACTS + 1]; MOST_CONTACTS], count: usize) -> Each<T> {
+    let diagonal: [f64; MOST_CONTACTS] =
         core::array::from_fn(|at| rows.get(at).and_then(|row| row.get(at)).map_or(0.0, |d| d.to_f64()));
-    let entry = |rows: &[[T; MOST_STOPS + 1]; MOST_STOPS], row: usize, column: usize| {
+    let entry = |rows: &[[T; MOST_CONTACTS + 1]; MOST_CONTACTS], row: usize, column: usize| {
         rows.get(row).and_then(|row| row.get(column)).copied().unwrap_or_default()
     };
-    let mut is_pivot = [false; MOST_STOPS];
+    let mut is_pivot = [false; MOST_CONTACTS];
     for at in 0..count {
         let pivot = entry(rows, at, at);
         let least = DEPENDENT * diagonal.get(at).copied().unwrap_or_default();
@@ -249,7 +249,7 @@ fn eliminate<T: Real>(rows: &mut [[T; MOST_STOPS + 1]; MOST_STOPS], count: usize
         }
     }
     core::array::from_fn(|at| match is_pivot.get(at) {
-        Some(true) if at < count => entry(rows, at, MOST_STOPS) / entry(rows, at, at),
+        Some(true) if at < count => entry(rows, at, MOST_CONTACTS) / entry(rows, at, at),
         _ => T::default(),
     })
 }
@@ -278,14 +278,14 @@ pub(crate) fn number<T: Real>(of: &Each<T>, stop: usize) -> f64 {
 mod tests {
     use std::vec::Vec;
 
-    use super::{Contacts, MOST_STOPS};
+    use super::{Contacts, MOST_CONTACTS};
 
     /// Responses that have W alone.
     fn solved<const N: usize>(w: [[f64; N]; N], b: [f64; N]) -> Option<(u32, [f64; N])> {
         let mut values: Vec<f64> = w.into_iter().flatten().collect();
         values.push(0.0);
         let contacts = Contacts { stops: N, coordinates: 0, constraints: 0, values: &values };
-        let mut all = [0.0; MOST_STOPS];
+        let mut all = [0.0; MOST_CONTACTS];
         all[..N].copy_from_slice(&b);
         let (active, x) = contacts.complementary((1 << N) - 1, 0, &all)?;
         Some((active, core::array::from_fn(|at| x[at])))

@@ -12,7 +12,7 @@
 //! acts by halves of its impulse before and behind a step, as stops do that are rested on; both are at most h L₀. See
 //! [`moreau`](crate::moreau).
 
-use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, number};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
 use crate::equations::{At, Equations};
 use crate::mechanism::growth_limit;
 use crate::moreau::Changes;
@@ -67,7 +67,7 @@ pub(crate) fn halt<T: Real>(
         pressed(equations, at, inputs, changes.q, Some(&mut *changes.rows));
         let limits = Limits::of(equations, at, inputs, [changes.q, changes.rows]);
         let was = Gaps::of(equations, before, changes.still).rate;
-        // whether what slides has come to a halt is seen with the impulses of what sticks
+        // sliding may come to a halt by the impulses of those that stick
         let (stuck, mut all, mut ends) = (pushed & friction, pushed & friction, rates);
         let memory = |row: usize| (direction(info, inputs, row), holding(info, inputs, row));
         vectors::fill(changes.q, T::ZERO);
@@ -115,11 +115,11 @@ impl<T: Real> Halting<T> {
         memory: impl Fn(usize) -> (f64, T),
     ) -> Self {
         let (one, half) = (T::from_f64(1.0), T::from_f64(0.5));
-        let none = [T::ZERO; MOST_STOPS];
-        let directions = [0.0; MOST_STOPS];
+        let none = [T::ZERO; MOST_CONTACTS];
+        let directions = [0.0; MOST_CONTACTS];
         let halted = stuck | crossed;
         let mut it = Self { halted, directions, given: none, most: none, loose: none, shift: none };
-        for row in (0..MOST_STOPS).filter(|row| has(stuck | crossed, *row)) {
+        for row in (0..MOST_CONTACTS).filter(|row| has(stuck | crossed, *row)) {
             let (sliding, sticking) = (limits.sliding(row), limits.sticking(row));
             let (direction, held) = memory(row);
             let [given, most, loose, shift] = if has(crossed, row) {
@@ -154,7 +154,7 @@ impl<T: Real> Halting<T> {
         if !has_growth {
             return None;
         }
-        let mut fixed = [T::ZERO; MOST_STOPS];
+        let mut fixed = [T::ZERO; MOST_CONTACTS];
         loop {
             let changes = contacts.rates(&fixed);
             let b = core::array::from_fn(|row| of(rates, row) + of(&changes, row));
@@ -168,7 +168,7 @@ impl<T: Real> Halting<T> {
                     false => f64::INFINITY,
                 }
             };
-            let loose = (0..MOST_STOPS).filter(|row| has(self.halted, *row) && beyond(*row) > 0.0);
+            let loose = (0..MOST_CONTACTS).filter(|row| has(self.halted, *row) && beyond(*row) > 0.0);
             let worst = loose.reduce(|worst, row| if beyond(row) > beyond(worst) { row } else { worst });
             let Some(row) = worst else {
                 return Some(core::array::from_fn(|row| of(&x, row) + of(&fixed, row)));

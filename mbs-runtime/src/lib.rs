@@ -119,6 +119,7 @@ mod components;
 mod constant;
 mod contact;
 mod corners;
+mod declared;
 mod derivation;
 mod described;
 mod diagnosis;
@@ -176,13 +177,11 @@ pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
 pub use constant::{ConstantStep, ConstantStepBuilder, Kernel, Rattle, RattleStep, TrBdf2, TrBdf2Step};
 pub use corners::{Knots, Switch};
+pub use declared::{DeclaredEvent, DeclaredFriction, DeclaredStop};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use dual::Dual;
 pub use error::Error;
-pub use info::{
-    Constraint, DeclaredEvent, DeclaredFriction, DeclaredStop, Dimension, Direction, Function, Info,
-    Operations, Pivot, Quantity, Sampling,
-};
+pub use info::{Constraint, Dimension, Direction, Function, Info, Operations, Pivot, Quantity, Sampling};
 pub use kinematics::{Kinematics, Motion};
 pub use lanes::Lanes;
 pub use mbs_interface::implicit::*;

@@ -20,7 +20,7 @@
 //! J. J. Moreau (1988), Unilateral contact and dry friction in finite freedom dynamics; M. Jean, Comput. Methods Appl. Mech.
 //! Eng. 177 (1999) 235; V. Acary, ibid. 256 (2013) 224, for the correction of positions.
 
-use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, has, number, those};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, has, number, those};
 use crate::equations::{At, Equations};
 use crate::halting::halt;
 use crate::mechanism::growth_limit;
@@ -96,7 +96,7 @@ pub fn push<T: Real>(
     let Held { held, forces } = decide(equations, at, inputs, undecided, [changes.q, changes.rows])?;
     let half = T::from_f64(0.5) * h;
     Contacts::at(equations, (t, q), |contacts| contacts.add(&forces.map(|force| half * force), v));
-    Ok(those(MOST_STOPS, |row| has(held & still, row) || number(&forces, row) > 0.0))
+    Ok(those(MOST_CONTACTS, |row| has(held & still, row) || number(&forces, row) > 0.0))
 }
 
 /// Answers the stops and the frictions that stick at the end of a step of `h` seconds: changes all coordinates and velocities
@@ -132,7 +132,7 @@ fn strike_stops<T: Real>(
     let now = Gaps::of(equations, At { t, q, v }, changes.still);
     let closed = pushed | those(count, |stop| number(&now.gap, stop) <= 0.0);
     if closed == 0 {
-        note(equations, 0, &[T::ZERO; MOST_STOPS], inputs);
+        note(equations, 0, &[T::ZERO; MOST_CONTACTS], inputs);
         return Ok(false);
     }
     let gap_before = Gaps::of(equations, before, changes.still).gap;
@@ -157,7 +157,7 @@ fn strike_stops<T: Real>(
     vectors::zip_map(q, changes.q, |q, change| q + change);
     vectors::zip_map(v, changes.v, |v, change| v + change);
     // a force that presses for a step is no impact
-    let noted = if answer.is_impact { answer.impulses } else { [T::ZERO; MOST_STOPS] };
+    let noted = if answer.is_impact { answer.impulses } else { [T::ZERO; MOST_CONTACTS] };
     note(equations, answer.held, &noted, inputs);
     Ok(true)
 }
@@ -228,7 +228,7 @@ impl<'a, T: Real> Striking<'a, T> {
         if !has_growth {
             return None;
         }
-        let (mut impulses, mut held, mut is_impact) = ([T::ZERO; MOST_STOPS], 0, false);
+        let (mut impulses, mut held, mut is_impact) = ([T::ZERO; MOST_CONTACTS], 0, false);
         for turn in 0..=IN_SEQUENCE {
             let moved = zip(&impulses, shift, |impulse, shift| impulse * shift);
             let gap = zip(&ends.gap[1], &contacts.rates(&moved), |gap, change| gap + change);
@@ -236,22 +236,22 @@ impl<'a, T: Real> Striking<'a, T> {
             closed |= those(self.count, |stop| number(&gap, stop) <= 0.0);
             let still = self.still(&impulses);
             let closing =
-                those(MOST_STOPS, |stop| has(closed, stop) && number(&rate, stop) <= number(&still, stop));
+                those(MOST_CONTACTS, |stop| has(closed, stop) && number(&rate, stop) <= number(&still, stop));
             let is_hit = |stop: usize| has(closing, stop) && number(&rate, stop) < -number(&still, stop);
-            if turn == IN_SEQUENCE || !(0..MOST_STOPS).any(is_hit) {
+            if turn == IN_SEQUENCE || !(0..MOST_CONTACTS).any(is_hit) {
                 let held =
-                    those(MOST_STOPS, |stop| has(closing & held, stop) && number(&impulses, stop) > 0.0);
+                    those(MOST_CONTACTS, |stop| has(closing & held, stop) && number(&impulses, stop) > 0.0);
                 return Some(Answer { held, impulses, moved, gap, is_impact });
             }
             let taken = taken(contacts, closed, &self.change)?;
             let approach = if turn == 0 { self.approach() } else { rate };
             let thrown = self.rebounds(&approach);
             let is_last = turn + 1 == IN_SEQUENCE;
-            held = those(MOST_STOPS, |stop| {
+            held = those(MOST_CONTACTS, |stop| {
                 has(closed, stop) && (is_last || number(&thrown, stop) <= number(&taken, stop))
             });
             is_impact = is_impact
-                || (0..MOST_STOPS)
+                || (0..MOST_CONTACTS)
                     .any(|stop| is_hit(stop) && -number(&approach, stop) > number(&taken, stop));
             let short: Each<T> = core::array::from_fn(|stop| {
                 let later = if turn == 0 { of(&self.rest, stop) * of(&self.change, stop) } else { T::ZERO };
@@ -322,7 +322,7 @@ pub fn begin<T: Real>(
     let undecided = Undecided { resting: settled.transpose()?.unwrap_or(0), still, breaking: 0 };
     let Held { forces, .. } = decide(equations, at, inputs, undecided, [changes.q, changes.rows])?;
     let held = those(count, |stop| number(&forces, stop) > 0.0);
-    note(equations, held, &[T::ZERO; MOST_STOPS], inputs);
+    note(equations, held, &[T::ZERO; MOST_CONTACTS], inputs);
     Ok(())
 }
 
@@ -334,7 +334,7 @@ fn slide<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, still: &[T], inpu
     let own = Contacts::at(equations, (at.t, at.q), |contacts| {
         core::array::from_fn(|row| contacts.mobility(row, row).to_f64().max(0.0))
     });
-    let own: Each<f64> = own.unwrap_or([0.0; MOST_STOPS]);
+    let own: Each<f64> = own.unwrap_or([0.0; MOST_CONTACTS]);
     let is_still = |row: usize| {
         let fastest = Real::sqrt(2.0 * energy * own.get(row).copied().unwrap_or(0.0));
         number(&rates, row).abs() <= STILL * fastest
@@ -343,7 +343,7 @@ fn slide<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, still: &[T], inpu
         let direction = if number(&rates, row) > 0.0 { 1.0 } else { -1.0 };
         set(info, inputs, row, (direction, T::ZERO));
     }
-    those(MOST_STOPS, |row| has(all_frictions(info), row) && is_still(row))
+    those(MOST_CONTACTS, |row| has(all_frictions(info), row) && is_still(row))
 }
 
 /// The change of the rate of each gap in a step by the force at its own stop; `change` is that of all rates without stops.
@@ -354,7 +354,7 @@ fn taken<T: Real>(contacts: &Contacts<'_, T>, closed: u32, change: &Each<T>) -> 
 
 /// e of every stop.
 fn restitutions<T: Real>(equations: &dyn Equations<T>) -> Each<T> {
-    let mut laws = [T::ZERO; 2 * MOST_STOPS];
+    let mut laws = [T::ZERO; 2 * MOST_CONTACTS];
     if let Some(laws) = laws.get_mut(..2 * equations.info().stops.len()) {
         equations.stop_laws(laws);
     }

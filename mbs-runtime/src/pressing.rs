@@ -1,7 +1,7 @@
 //! The forces at stops that are rested on, and of frictions that stick.
 
 use crate::Real;
-use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_STOPS, bit, those};
+use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_CONTACTS, bit, those};
 use crate::equations::{At, Equations};
 use crate::sticking::frictions;
 
@@ -35,7 +35,7 @@ pub(crate) fn pressed<T: Real>(
     acceleration: &mut [T],
     multipliers: Option<&mut [T]>,
 ) -> (T, Each<T>) {
-    let none = (T::default(), [T::default(); MOST_STOPS]);
+    let none = (T::default(), [T::default(); MOST_CONTACTS]);
     let held = held(equations, inputs);
     if held == 0 {
         return none;
@@ -61,7 +61,7 @@ pub fn lean<T: Real>(
     b: &[T],
     (to, x): (&mut [T], &mut [T]),
 ) -> T {
-    let (mut set, mut all) = (0, [T::default(); MOST_STOPS]);
+    let (mut set, mut all) = (0, [T::default(); MOST_CONTACTS]);
     for (stop, b) in stops.iter().zip(b) {
         set |= bit(*stop);
         if let Some(to) = all.get_mut(*stop) {

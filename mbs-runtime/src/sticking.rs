@@ -8,10 +8,10 @@
 //! s̈ = 0 and |λ| ≤ L₀,   or   λ = −L sign(s̈)
 //! ```
 //!
-//! What does not stay within L₀ slides, the worst one first; one that would then move against its direction sticks after
-//! all. With the forces at stops that are rested on this is one problem of few rows.
+//! All that do not move stick at first. The one that is farthest beyond its L₀ slides, until the others hold. One that would
+//! then move against its direction sticks after all. With the forces at stops that are rested on this is one problem of few rows.
 
-use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, number};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
 use crate::equations::{At, Equations};
 use crate::pressing::{held, pressed};
 use crate::{Error, Info, Real};
@@ -23,7 +23,7 @@ const ROUNDING: f64 = 1e-12;
 /// So many changes of modes are tried per friction.
 const TRIES: usize = 8;
 
-/// What a decision starts from, by sets of stops and frictions.
+/// Stops and frictions before a decision.
 #[derive(Clone, Copy)]
 pub(crate) struct Undecided {
     /// The stops that are rested on if they push.
@@ -77,14 +77,14 @@ pub(crate) fn set<T: Real>(info: &Info, inputs: &mut [T], row: usize, (direction
 /// The sizes of a friction by its row: while it slides, and at most while it sticks.
 pub(crate) struct Limits<T> {
     stops: usize,
-    values: [T; 2 * MOST_STOPS],
+    values: [T; 2 * MOST_CONTACTS],
 }
 
 impl<T: Real> Limits<T> {
     /// In a state with given accelerations and multipliers.
     pub fn of(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &[T], reactions: [&[T]; 2]) -> Self {
         let (stops, count) = (equations.info().stops.len(), equations.info().frictions.len());
-        let mut values = [T::default(); 2 * MOST_STOPS];
+        let mut values = [T::default(); 2 * MOST_CONTACTS];
         if let Some(values) = values.get_mut(..2 * count) {
             equations.limits(at, inputs, reactions, values);
         }
@@ -135,7 +135,7 @@ pub(crate) fn decide<T: Real>(
         });
         let (held, forces, changes, own) = match solved {
             Some(solved) => solved.ok_or_else(|| unanswered(info, at.t.to_f64(), resting | sticking))?,
-            None => (0, [T::ZERO; MOST_STOPS], [T::ZERO; MOST_STOPS], [0.0; MOST_STOPS]),
+            None => (0, [T::ZERO; MOST_CONTACTS], [T::ZERO; MOST_CONTACTS], [0.0; MOST_CONTACTS]),
         };
         let limits = Limits::of(equations, at, inputs, [a, lambda]);
         // by how much of its limit a force is beyond it

@@ -200,7 +200,13 @@ impl<T: Real> Equations<T> for Resting<'_, T> {
         acceleration: &mut [T],
         multipliers: &mut [T],
     ) -> T {
-        self.solved(at, &self.resting_inputs(inputs), &vec![T::ZERO; multipliers.len()], acceleration).0
+        let inputs = self.resting_inputs(inputs);
+        let none = vec![T::ZERO; self.info.constraints.len()];
+        let (_, forces) = self.solved(at, &inputs, &none, acceleration);
+        let (declared, of_stops) = self.split_mut(multipliers);
+        // M q̈ + Φ_qᵀ λ = Q, where stops push
+        of_stops.iter_mut().zip(forces).for_each(|(multiplier, force)| *multiplier = -force);
+        self.free.reactions(at, &inputs, acceleration, declared)
     }
 
     fn clock(&self, clock: usize) -> [T; 2] {
@@ -227,13 +233,7 @@ macro_rules! described {
                 acceleration: &mut [$T],
                 multipliers: &mut [$T],
             ) -> $T {
-                let inputs = self.resting_inputs(inputs);
-                let none = vec![<$T>::ZERO; self.info.constraints.len()];
-                let (_, forces) = self.solved(at, &inputs, &none, acceleration);
-                let (declared, of_stops) = self.split_mut(multipliers);
-                // M q̈ + Φ_qᵀ λ = Q, where stops push
-                of_stops.iter_mut().zip(forces).for_each(|(multiplier, force)| *multiplier = -force);
-                self.free.reactions(at, &inputs, acceleration, declared)
+                self.free_reactions(at, inputs, acceleration, multipliers)
             }
 
             fn outputs(

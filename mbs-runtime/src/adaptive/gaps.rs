@@ -5,7 +5,7 @@ use super::dynamics::Dynamics;
 use super::effort::Effort;
 use super::jump::{is_idle, margins};
 use crate::Real;
-use crate::contact::{Each, Gaps, MOST_STOPS, bit, has, those};
+use crate::contact::{Each, Gaps, MOST_CONTACTS, bit, has, those};
 use crate::equations::{At, Equations};
 use crate::info::{Direction, MOST_EVENTS};
 use crate::pressing::held;
@@ -39,7 +39,7 @@ pub(super) struct Stopping {
 impl Stopping {
     pub fn new(tolerances: &Tolerances) -> Self {
         Self {
-            longest: [0.0; MOST_STOPS],
+            longest: [0.0; MOST_CONTACTS],
             size: tolerances.atol / tolerances.rtol,
             least_size: tolerances.atol / tolerances.rtol,
             stuck: 0,

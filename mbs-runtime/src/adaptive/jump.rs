@@ -2,7 +2,7 @@
 
 use super::dynamics::Dynamics;
 use super::gaps::Stopping;
-use crate::contact::{Contacts, Each, Gaps, MOST_STOPS, bit, has, number, those};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, those};
 use crate::equations::At;
 use crate::pressing::{held, pressed};
 use crate::sticking::{
@@ -93,13 +93,13 @@ impl<D: Dynamics> Jump<'_, D> {
     /// Σ |∂g/∂q| of every gap.
     pub fn slopes(&self) -> Each<f64> {
         let slopes = self.contacts(|contacts| core::array::from_fn(|stop| contacts.slope(stop)));
-        slopes.unwrap_or([0.0; MOST_STOPS])
+        slopes.unwrap_or([0.0; MOST_CONTACTS])
     }
 
     /// The rates below which gaps are still.
     fn still(&self, accelerations: &Each<D::Real>, size: f64) -> Each<f64> {
         let energy = self.dynamics.equations().kinetic_energy(self.at()).to_f64().max(0.0);
-        let none = [0.0; MOST_STOPS];
+        let none = [0.0; MOST_CONTACTS];
         let diagonal = self.contacts(|contacts| {
             core::array::from_fn(|stop| contacts.mobility(stop, stop).to_f64().max(0.0))
         });
@@ -144,7 +144,7 @@ pub(super) fn margins<D: Dynamics>(
     let (equations, mut lambda) = (dynamics.equations(), dynamics.no_feedback());
     if held(equations, inputs) == 0 {
         vectors::fill(a.as_mut(), D::Real::default());
-        return [D::Real::default(); MOST_STOPS];
+        return [D::Real::default(); MOST_CONTACTS];
     }
     equations.free_reactions(at, inputs, a.as_mut(), lambda.as_mut());
     let (_, mut forces) = pressed(equations, at, inputs, a.as_mut(), Some(lambda.as_mut()));
@@ -225,7 +225,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let friction = all_frictions(self.dynamics.equations().info());
         let closed = (held | reached) & !friction | those(count, is_closed);
         let still = self.still(&gaps.acceleration, stopping.size);
-        let (mut impulses, mut flight) = ([D::Real::default(); MOST_STOPS], f64::INFINITY);
+        let (mut impulses, mut flight) = ([D::Real::default(); MOST_CONTACTS], f64::INFINITY);
         let mut is_impact = false;
         for turn in 1..=IN_SEQUENCE {
             let rate = self.gaps().rate;
@@ -251,7 +251,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let resting = those(count, |stop| has(closed & !pulling, stop) && rests(stop));
         let found = if is_impact { 0 } else { reached };
         let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);
-        let halted = those(MOST_STOPS, |row| has(friction & found & !held, row) && is_halted(row));
+        let halted = those(MOST_CONTACTS, |row| has(friction & found & !held, row) && is_halted(row));
         let not_moving = self.slide(halted, &rates, &still);
         self.clear(resting, &gaps.gap, true);
         let rates = self.gaps().rate;
@@ -297,7 +297,7 @@ impl<D: Dynamics> Jump<'_, D> {
     ) -> Result<(Each<D::Real>, f64), Error> {
         let equations = self.dynamics.equations();
         let count = equations.info().stops.len();
-        let mut laws = [D::Real::default(); 2 * MOST_STOPS];
+        let mut laws = [D::Real::default(); 2 * MOST_CONTACTS];
         if let Some(laws) = laws.get_mut(..2 * count) {
             equations.stop_laws(laws);
         }

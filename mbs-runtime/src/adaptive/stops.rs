@@ -8,7 +8,7 @@ use super::events::{Happened, Watched};
 use super::gaps::{Stopping, among, watched_of};
 use super::jump::{Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
-use crate::contact::{MOST_STOPS, bit, has, those};
+use crate::contact::{MOST_CONTACTS, bit, has, those};
 use crate::pressing::held;
 use crate::sticking::{all_frictions, direction, frictions, set};
 use crate::{Error, Real};
@@ -197,7 +197,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             let held = held(jump.dynamics.equations(), jump.inputs);
             let outcome = jump.lead(reached, held, longest, &mut stopping)?;
             let info = jump.dynamics.equations().info();
-            let mut directions = [0.0; MOST_STOPS];
+            let mut directions = [0.0; MOST_CONTACTS];
             for (of, (row, _)) in directions.iter_mut().zip(frictions(info)) {
                 *of = direction(info, jump.inputs, row);
             }

@@ -40,7 +40,8 @@ impl Resolver<'_> {
             self.errors.push(Diagnostic::new(name.span(), message).help(help));
             return;
         }
-        if self.events.len() == MOST_EVENTS {
+        // stops and frictions that stick are watched, too
+        if self.events.len() + self.stops.len() + self.frictions.len() >= MOST_EVENTS {
             let message = format!("`{name}` is one event too many: a run watches {MOST_EVENTS} of them");
             let help = "leave some out, or watch them from the program with `advance_until`";
             self.errors.push(Diagnostic::new(name.span(), message).help(help));

@@ -59,6 +59,10 @@ impl Resolver<'_> {
     /// Enters friction that sticks.
     pub(super) fn push_friction(&mut self, name: &Ident, Sticks { slip, limits }: Sticks) {
         let Some(memory) = self.friction_memory(name) else { return };
+        if self.has_room_for(name, "friction", "take `law = smooth;` with a `transition` for some").is_none()
+        {
+            return;
+        }
         let contact = self.contact(slip);
         let quantity = quantity(name, "", "", Unit::ONE);
         self.frictions.push(Friction { quantity, contact, limits, memory, span: name.span() });

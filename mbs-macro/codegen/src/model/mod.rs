@@ -318,7 +318,7 @@ pub struct Contact {
 /// Friction that sticks.
 pub struct Friction {
     pub quantity: Quantity,
-    /// How far it has slid.
+    /// The way that it has slid.
     pub contact: Contact,
     /// The size of the force while it slides, and the largest one with which it sticks.
     pub limits: [Expr; 2],

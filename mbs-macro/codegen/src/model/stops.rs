@@ -19,10 +19,8 @@ use crate::diagnostics::{Diagnostic, listing, nearest};
 use crate::quantity::{Comparison, Quantity, Setting};
 use crate::syntax::{Condition, Property};
 
-/// A run looks at the stops that are closed together in all combinations that its pivots lead through.
-const MOST_STOPS: usize = 16;
-/// A run watches 64 values: events, one condition that ends it, and stops.
-const MOST_WATCHED: usize = 63;
+/// A run looks at the stops and the frictions that act together in all combinations that its pivots lead through.
+const MOST_CONTACTS: usize = 16;
 
 const RESTITUTION: &str = "restitution";
 const SETTLE: &str = "settle";
@@ -92,15 +90,21 @@ impl Resolver<'_> {
             self.errors.push(Diagnostic::new(name.span(), message).help(help));
             return None;
         }
-        if self.stops.len() == MOST_STOPS
-            || self.stops.len() + self.frictions.len() + self.events.len() >= MOST_WATCHED
-        {
-            let message = format!("`{name}` is one stop too many: a mechanism has at most {MOST_STOPS}");
-            let help = "leave some out, or make soft ones of them: `force end on x = -k*ramp(x - gap);`";
-            self.errors.push(Diagnostic::new(name.span(), message).help(help));
-            return None;
-        }
+        let help = "leave some out, or make soft ones of them: `force end on x = -k*ramp(x - gap);`";
+        self.has_room_for(name, "stop", help)?;
         Some((gap, dimension))
+    }
+
+    /// Refuses one stop or friction more than there may be.
+    pub(super) fn has_room_for(&mut self, name: &Ident, what: &str, help: &str) -> Option<()> {
+        if self.stops.len() + self.frictions.len() < MOST_CONTACTS {
+            return Some(());
+        }
+        let message = format!(
+            "`{name}` is one {what} too many: a mechanism has at most {MOST_CONTACTS} stops and frictions that stick"
+        );
+        self.errors.push(Diagnostic::new(name.span(), message).help(help));
+        None
     }
 
     /// True if a formula has pieces, or a table with corners, of positions.

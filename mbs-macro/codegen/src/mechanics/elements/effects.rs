@@ -59,7 +59,7 @@ pub struct Effects<'m> {
 /// Dry friction that holds still what does not overcome it.
 #[derive(Clone, Copy)]
 pub struct Sticks {
-    /// How far it has slid.
+    /// The way that it has slid.
     pub slip: Expr,
     /// The size of the force while it slides, and the largest one with which it sticks.
     pub limits: [Expr; 2],

@@ -130,18 +130,17 @@ fn resist<'a>(friction: &Element<'a>, s: Scalar<'a>, effects: &mut Effects<'_>) 
     let limit = dry_limit(friction, "torque", "coefficient");
     let speed = effects.rate(s);
     let mut force = -(friction.get_or_zero("viscous") * speed);
-    match (limit, friction.memories, friction.get("transition")) {
-        (Some(limit), Some([direction, held]), _) => {
-            let [direction, held] = [direction, held].map(|memory| friction.algebra.scalar(memory));
-            let limit = limit.shared();
-            let most = dry_limit(friction, BREAKAWAY, STATIC).map_or(limit, |most| most.max(limit));
-            effects.sticks = Some(Sticks { slip: s.expr(), limits: [limit.expr(), most.expr()] });
-            let force = (force - limit * direction).shared();
-            effects.apply(force, s);
-            return force + held;
-        }
-        (Some(limit), None, Some(transition)) => force = force - limit * (speed / transition).tanh(),
-        _ => {}
+    if let (Some(limit), Some([direction, held])) = (limit, friction.memories) {
+        let [direction, held] = [direction, held].map(|memory| friction.algebra.scalar(memory));
+        let limit = limit.shared();
+        let most = dry_limit(friction, BREAKAWAY, STATIC).map_or(limit, |most| most.max(limit));
+        effects.sticks = Some(Sticks { slip: s.expr(), limits: [limit.expr(), most.expr()] });
+        let force = (force - limit * direction).shared();
+        effects.apply(force, s);
+        return force + held;
+    }
+    if let (Some(limit), Some(transition)) = (limit, friction.get("transition")) {
+        force = force - limit * (speed / transition).tanh();
     }
     let force = force.shared();
     effects.apply(force, s);

@@ -282,7 +282,7 @@ static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_
         for (int row = 0; row < 3 * CAPS_ROWS; row++) {
             ends[row] = now[row];
         }
-        /* whether what slides has come to a halt is seen with the impulses of what sticks */
+        /* sliding may come to a halt by the impulses of those that stick */
         for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
             crossed[row] = 0;
         }

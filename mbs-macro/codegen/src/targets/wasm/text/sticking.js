@@ -144,7 +144,7 @@ class Sticking extends Start {
     const acts = stuck.map((it, row) => it || crossed[row]);
     if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("JAMMED", acts.indexOf(true));
     const resting = held.map((it, row) => it && this.isStop(row));
-    // whether what slides has come to a halt is seen with the impulses of what sticks
+    // sliding may come to a halt by the impulses of those that stick
     crossed.fill(false);
     for (;;) {
       const halting = this.halting(stuck, crossed, was, ends, limits);

@@ -1,0 +1,49 @@
+//! Stops and friction that sticks.
+
+use proc_macro2::Span;
+
+use super::{Compiled, Quantity};
+
+/// An end of the way; see [`FunctionId::Gaps`].
+pub struct Stop {
+    /// Its name, and the unit of its gap.
+    pub quantity: Quantity,
+    /// The place among the inputs of the memory that is 1 while it is rested on; that of its impulse is behind it.
+    pub memory: usize,
+    /// The gap, unless it is too long to read.
+    pub formula: String,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// Friction that sticks; see [`FunctionId::Limits`].
+pub struct Friction {
+    /// Its name.
+    pub name: String,
+    /// The place among the inputs of the memory of the direction of sliding; that of the force that holds is behind it.
+    pub memory: usize,
+    /// The size of the force while it slides, and the largest one with which it sticks, unless they are too long to read.
+    pub limits: [String; 2],
+    /// Where it is declared.
+    pub span: Span,
+}
+
+impl Compiled {
+    /// The number of results of [`FunctionId::Contacts`].
+    pub(super) fn contact_count(&self) -> usize {
+        let contacts = self.contacts();
+        let response = 2 * self.coordinates.len() + self.constraints.len() + contacts;
+        if contacts == 0 { 0 } else { contacts * response + 1 }
+    }
+
+    /// The place of the first memory of every stop, and behind them of every friction that sticks.
+    pub fn contact_memories(&self) -> impl Iterator<Item = usize> {
+        let frictions = self.frictions.iter().map(|friction| friction.memory);
+        self.stops.iter().map(|stop| stop.memory).chain(frictions)
+    }
+
+    /// The number of stops and of frictions that stick.
+    pub fn contacts(&self) -> usize {
+        self.stops.len() + self.frictions.len()
+    }
+}

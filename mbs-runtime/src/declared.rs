@@ -1,0 +1,46 @@
+//! Stops, friction that sticks and events, as they are declared.
+
+use crate::info::{Dimension, Direction};
+
+/// An end of the way that is declared: its gap is 0 where it is touched, and never negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeclaredStop {
+    /// Its name.
+    pub name: &'static str,
+    /// Its documentation.
+    pub doc: &'static str,
+    /// The unit of its gap.
+    pub unit: &'static str,
+    /// The dimension of its gap.
+    pub dimension: Dimension,
+    /// The place among the inputs of the memory that is 1 while it is rested on; that of the sum of its impulses is behind
+    /// it.
+    pub memory: usize,
+    /// The gap, unless it is too long to read.
+    pub formula: &'static str,
+}
+
+/// Friction that is declared with `law = coulomb`: it holds still what does not overcome it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeclaredFriction {
+    /// Its name.
+    pub name: &'static str,
+    /// The place among the inputs of the memory of the direction in which it slides, −1 or 1, and 0 while it sticks; that of
+    /// the force with which it holds is behind it.
+    pub memory: usize,
+    /// The size of the force while it slides, and the largest one with which it sticks, unless they are too long to read.
+    pub limits: [&'static str; 2],
+}
+
+/// A declared change of sign of a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeclaredEvent {
+    /// Its name.
+    pub name: &'static str,
+    /// Its doc comment.
+    pub doc: &'static str,
+    /// Dimension of the value.
+    pub dimension: Dimension,
+    /// Which changes of sign it is.
+    pub direction: Direction,
+}
