@@ -11,7 +11,7 @@ use crate::sticking::{
 use crate::{Error, Real, vectors};
 
 /// A gap below this share of the size of the coordinates is closed,
-const CLOSED: f64 = 1e-12;
+pub(super) const CLOSED: f64 = 1e-12;
 /// and one that closes within this share of the longest step.
 const SOON: f64 = 1e-10;
 /// A rate of a gap is 0 below this share of the largest one that the kinetic energy lets it have,
@@ -252,7 +252,9 @@ impl<D: Dynamics> Jump<'_, D> {
         let found = if is_impact { 0 } else { reached };
         let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);
         let halted = those(MOST_CONTACTS, |row| has(friction & found & !held, row) && is_halted(row));
-        let not_moving = self.slide(halted, &rates, &still);
+        // behind an impact all are decided anew, else one that has just broken loose keeps its direction
+        let is_open = |direction: f64| is_impact || direction == 0.0;
+        let not_moving = self.slide(halted, is_open, (&rates, &still));
         self.clear(resting, &gaps.gap, true);
         let rates = self.gaps().rate;
         self.clear(resting | not_moving, &rates, false);
@@ -264,14 +266,19 @@ impl<D: Dynamics> Jump<'_, D> {
         Ok(Outcome { held, closed, impulses, flight })
     }
 
-    /// Sets the directions of the frictions that move; those that do not, with those that have come to a halt. One that has
-    /// just broken loose keeps its direction.
-    fn slide(&mut self, halted: u32, rates: &Each<D::Real>, still: &Each<f64>) -> u32 {
+    /// Sets the directions of the frictions that move. Gives those that do not, if their directions are open, and those that
+    /// have come to a halt.
+    fn slide(
+        &mut self,
+        halted: u32,
+        is_open: impl Fn(f64) -> bool,
+        (rates, still): (&Each<D::Real>, &Each<f64>),
+    ) -> u32 {
         let info = self.dynamics.equations().info();
         let mut not_moving = 0;
         for (row, _) in frictions(info) {
             let is_still = is_still(rates, still, row);
-            if has(halted, row) || is_still && direction(info, self.inputs, row) == 0.0 {
+            if has(halted, row) || is_still && is_open(direction(info, self.inputs, row)) {
                 not_moving |= bit(row);
             } else if !is_still {
                 let direction = if number(rates, row) > 0.0 { 1.0 } else { -1.0 };

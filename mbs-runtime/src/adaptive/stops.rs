@@ -5,10 +5,10 @@
 //! at: until then the last step is known with the motion that it had.
 
 use super::events::{Happened, Watched};
-use super::gaps::{Stopping, among, watched_of};
-use super::jump::{Jump, Outcome};
+use super::gaps::{Stopping, among, stop_in, watched_of};
+use super::jump::{CLOSED, Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
-use crate::contact::{MOST_CONTACTS, bit, has, those};
+use crate::contact::{MOST_CONTACTS, bit, has, number, those};
 use crate::pressing::held;
 use crate::sticking::{all_frictions, direction, frictions, set};
 use crate::{Error, Real};
@@ -138,6 +138,26 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             self.control.next = SHORTER * h;
         }
         is_long
+    }
+
+    /// True of a stop that is closed from the begin of the last step to its end, and not rested on: friction holds what touches
+    /// it.
+    pub(super) fn is_held_closed(&mut self, index: usize, watched: &mut Watched<'_, D>) -> bool {
+        let stops = self.dynamics.equations().info().stops.len();
+        let Some(stop) = stop_in(self.dynamics.equations(), index).filter(|stop| *stop < stops) else {
+            return false;
+        };
+        let size = CLOSED * self.stopping.size;
+        let allowed = self.with_jump(|jump| {
+            let info = jump.dynamics.equations().info();
+            let held = held(jump.dynamics.equations(), jump.inputs);
+            let is_open = held & all_frictions(info) != 0 && !has(held, stop);
+            is_open.then(|| size * number(&jump.slopes(), stop))
+        });
+        let ends = [self.before.t, self.now.t];
+        let mut is_closed =
+            |t| allowed.is_some_and(|most| self.value_between(t, index, watched).to_f64().abs() <= most);
+        ends.into_iter().all(|t| is_closed(t))
     }
 
     /// Lets the next jump rest on a stop; false if that has been tried too often at this time.
