@@ -156,7 +156,8 @@ impl<'a, T: Real> Contacts<'a, T> {
     /// x ≥ 0 with W x + b ≥ 0 of a set, of which one or the other is 0 at each, and the set of those where W x + b is;
     /// nothing where there is none. At those that are `bound` x has any sign, and W x + b = 0.
     pub fn complementary(&self, set: u32, bound: u32, b: &Each<T>) -> Option<(u32, Each<T>)> {
-        let mut active = bound & set;
+        // stops press before friction holds, where they depend on each other
+        let mut active = if bound & set == 0 { 0 } else { set };
         for _ in 0..MOST_PIVOTS {
             let x = self.solve(active, b);
             let Some(wrong) = self.least_wrong(set & !bound, active, b, &x) else { return Some((active, x)) };

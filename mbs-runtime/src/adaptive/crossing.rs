@@ -112,7 +112,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 true => turned & bit != 0,
                 false => self.is_turned(index, is_rising, rounding, watched),
             };
-            if is_zero || self.is_held_closed(index, watched) {
+            if is_zero || self.is_held_by_others(index, watched) {
                 kept.judged |= bit;
                 kept.rising |= rising & bit;
                 kept.turned |= if is_turned { bit } else { 0 };
@@ -170,7 +170,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let direction = watched.direction(&self.dynamics, index)?;
         let (start, end) = (self.before.t, self.now.t);
         let Beginning { first, t: mut from, value: mut before, is_zero, .. } = self.beginning(index, watched);
-        if is_zero || self.is_held_closed(index, watched) {
+        if is_zero || self.is_held_by_others(index, watched) {
             return None;
         }
         if let Some(is_rising) = direction.met(first, before) {

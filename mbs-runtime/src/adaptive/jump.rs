@@ -34,6 +34,8 @@ pub(super) struct Jump<'a, D: Dynamics> {
     pub q: D::Coordinates,
     pub v: D::Coordinates,
     pub a: D::Coordinates,
+    /// The speed that moves coordinates by rounding in the longest step: friction does not slide below it.
+    pub slowest: f64,
 }
 
 impl<D: Dynamics> Jump<'_, D> {
@@ -48,7 +50,7 @@ impl<D: Dynamics> Jump<'_, D> {
 
     /// The gaps, with the accelerations that there are without stops and without friction that sticks.
     pub fn gaps(&mut self) -> Gaps<D::Real> {
-        let Self { dynamics, inputs, t, q, v, a } = self;
+        let Self { dynamics, inputs, t, q, v, a, .. } = self;
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
         let equations = dynamics.equations();
         equations.accelerations(at, inputs, dynamics.no_feedback().as_ref(), a.as_mut());
@@ -59,7 +61,7 @@ impl<D: Dynamics> Jump<'_, D> {
     /// the stops that push, and open ones that are closed and do not open.
     pub fn look(&mut self, size: f64) -> [u32; 3] {
         let slopes = self.slopes();
-        let Self { dynamics, inputs, t, q, v, a } = self;
+        let Self { dynamics, inputs, t, q, v, a, slowest } = self;
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
         let equations = dynamics.equations();
         let held = held(equations, inputs);
@@ -69,7 +71,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let info = equations.info();
         let pulls = those(info.contacts(), |row| {
             let against = direction(info, inputs, row) * number(&gaps.rate, row);
-            if has(held, row) { number(&margins, row) < 0.0 } else { against < 0.0 }
+            if has(held, row) { number(&margins, row) < 0.0 } else { against < -*slowest }
         });
         let pushes = those(count, |stop| has(held, stop) && number(&margins, stop) > 0.0);
         let closed = those(count, |stop| {
@@ -106,6 +108,11 @@ impl<D: Dynamics> Jump<'_, D> {
         let mut still = diagonal.unwrap_or(none).map(|mobility| STILL * Real::sqrt(2.0 * energy * mobility));
         for ((still, acceleration), slope) in still.iter_mut().zip(accelerations).zip(self.slopes()) {
             *still += Real::sqrt(2.0 * acceleration.to_f64().abs() * RISE * slope * size);
+        }
+        for (row, _) in frictions(self.dynamics.equations().info()) {
+            if let Some(still) = still.get_mut(row) {
+                *still = still.max(self.slowest);
+            }
         }
         still
     }
@@ -252,13 +259,11 @@ impl<D: Dynamics> Jump<'_, D> {
         let found = if is_impact { 0 } else { reached };
         let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);
         let halted = those(MOST_CONTACTS, |row| has(friction & found & !held, row) && is_halted(row));
-        // behind an impact all are decided anew, else one that has just broken loose keeps its direction
-        let is_open = |direction: f64| is_impact || direction == 0.0;
-        let not_moving = self.slide(halted, is_open, (&rates, &still));
+        let [not_moving, leaving] = self.slide(halted, &rates, &still);
         self.clear(resting, &gaps.gap, true);
         let rates = self.gaps().rate;
         self.clear(resting | not_moving, &rates, false);
-        let breaking = found & held & !stuck;
+        let breaking = found & held & !stuck | leaving;
         let Held { held, .. } = self.decide(Undecided { resting, still: not_moving, breaking })?;
         stopping.kept = resting & stuck & !held;
         let held = held | resting & stuck;
@@ -266,30 +271,27 @@ impl<D: Dynamics> Jump<'_, D> {
         Ok(Outcome { held, closed, impulses, flight })
     }
 
-    /// Sets the directions of the frictions that move. Gives those that do not, if their directions are open, and those that
-    /// have come to a halt.
-    fn slide(
-        &mut self,
-        halted: u32,
-        is_open: impl Fn(f64) -> bool,
-        (rates, still): (&Each<D::Real>, &Each<f64>),
-    ) -> u32 {
+    /// Sets the directions of the frictions that move. Gives those that do not, with those that have come to a halt, and of
+    /// them those that have just broken loose, as far as their directions tell.
+    fn slide(&mut self, halted: u32, rates: &Each<D::Real>, still: &Each<f64>) -> [u32; 2] {
         let info = self.dynamics.equations().info();
-        let mut not_moving = 0;
+        let (mut not_moving, mut leaving) = (0, 0);
         for (row, _) in frictions(info) {
-            let is_still = is_still(rates, still, row);
-            if has(halted, row) || is_still && is_open(direction(info, self.inputs, row)) {
+            if has(halted, row) {
                 not_moving |= bit(row);
-            } else if !is_still {
+            } else if is_still(rates, still, row) {
+                not_moving |= bit(row);
+                leaving |= if direction(info, self.inputs, row) == 0.0 { 0 } else { bit(row) };
+            } else {
                 let direction = if number(rates, row) > 0.0 { 1.0 } else { -1.0 };
                 set(info, self.inputs, row, (direction, D::Real::default()));
             }
         }
-        not_moving
+        [not_moving, leaving]
     }
 
     fn decide(&mut self, undecided: Undecided) -> Result<Held<D::Real>, Error> {
-        let Self { dynamics, inputs, t, q, v, a } = self;
+        let Self { dynamics, inputs, t, q, v, a, .. } = self;
         let mut lambda = dynamics.no_feedback();
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
         decide(dynamics.equations(), at, inputs, undecided, [a.as_mut(), lambda.as_mut()])

@@ -140,24 +140,22 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         is_long
     }
 
-    /// True of a stop that is closed from the begin of the last step to its end, and not rested on: friction holds what touches
-    /// it.
-    pub(super) fn is_held_closed(&mut self, index: usize, watched: &mut Watched<'_, D>) -> bool {
-        let stops = self.dynamics.equations().info().stops.len();
-        let Some(stop) = stop_in(self.dynamics.equations(), index).filter(|stop| *stop < stops) else {
-            return false;
-        };
-        let size = CLOSED * self.stopping.size;
+    /// True of a stop or a friction that others hold: a stop that stays closed in the last step and is not rested on, a
+    /// friction that slides and does not move in it.
+    pub(super) fn is_held_by_others(&mut self, index: usize, watched: &mut Watched<'_, D>) -> bool {
+        let Some(row) = stop_in(self.dynamics.equations(), index) else { return false };
+        let (size, ends) = (CLOSED * self.stopping.size, [self.before.t, self.now.t]);
+        let h = (ends[1] - ends[0]).to_f64();
         let allowed = self.with_jump(|jump| {
-            let info = jump.dynamics.equations().info();
-            let held = held(jump.dynamics.equations(), jump.inputs);
-            let is_open = held & all_frictions(info) != 0 && !has(held, stop);
-            is_open.then(|| size * number(&jump.slopes(), stop))
+            let (equations, slopes) = (jump.dynamics.equations(), jump.slopes());
+            let (held, friction) = (held(equations, jump.inputs), all_frictions(equations.info()));
+            let is_free = held & friction != 0 && !has(held, row);
+            // of the value of a friction, which is a rate
+            let per = if has(friction, row) { h } else { 1.0 };
+            is_free.then(|| size * number(&slopes, row) / per)
         });
-        let ends = [self.before.t, self.now.t];
-        let mut is_closed =
-            |t| allowed.is_some_and(|most| self.value_between(t, index, watched).to_f64().abs() <= most);
-        ends.into_iter().all(|t| is_closed(t))
+        let Some(allowed) = allowed else { return false };
+        ends.into_iter().all(|t| self.value_between(t, index, watched).to_f64().abs() <= allowed)
     }
 
     /// Lets the next jump rest on a stop; false if that has been tried too often at this time.
@@ -199,12 +197,13 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     }
 
     fn with_jump<R>(&mut self, what: impl FnOnce(&mut Jump<'_, D>) -> R) -> R {
-        let Self { dynamics, inputs, now, all, .. } = self;
+        let Self { dynamics, inputs, now, all, effort, stopping, .. } = self;
         dynamics.complete(now.t, &now.q, &now.v, all);
         let [q, v] = all.clone();
+        let slowest = if effort.longest > 0.0 { CLOSED * stopping.size / effort.longest } else { 0.0 };
         let mut present = dynamics.inputs_at(now.t, inputs);
         dynamics.with_inputs(&mut present, |inputs| {
-            what(&mut Jump { dynamics: &*dynamics, inputs, t: now.t, a: q.clone(), q, v })
+            what(&mut Jump { dynamics: &*dynamics, inputs, t: now.t, a: q.clone(), q, v, slowest })
         })
     }
 

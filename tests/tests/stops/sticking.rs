@@ -1,9 +1,11 @@
 //! Friction that sticks: Coulomb's law against closed forms, to a tolerance and with constant steps, and its refusals.
 
-use mbs_live::{Run, Text};
+use mbs_live::{Prepared, Run, Text};
 use mbs_runtime::equations::{At, Described};
 use mbs_runtime::lanes::Pack as Lanes;
-use mbs_runtime::{Adaptive, Baumgarte, Dop853, Error, Held, Rk4, Simulation, System, TrBdf2, mechanism};
+use mbs_runtime::{
+    Adaptive, Baumgarte, Dop853, Error, Held, Rk4, Sampled, Simulation, System, TrBdf2, mechanism,
+};
 
 use super::{TIGHT, declared};
 
@@ -175,5 +177,75 @@ fn every_path_has_the_same_bits() -> Result<(), Error> {
         });
         assert!(rows[0] == rows[1] && rows[0] == rows[2], "{rows:?}");
     }
+    Ok(())
+}
+
+/// The position and the speed of the first coordinate of a text at a time, to a tolerance.
+fn at(text: &str, t: f64) -> Result<[f64; 2], Error> {
+    let live = Text::declaration("sticking.mbs", text).compile().expect("a mechanism");
+    let mut run = Sampled::new(Adaptive::builder(Prepared::new(&live)).tolerances(TIGHT).build()?, t)?;
+    run.advance(1)?;
+    let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
+    run.state(&mut q, &mut v);
+    Ok([q[0], v[0]])
+}
+
+/// A block slides forth in the first half of a period and back in the second one. Another block on it, with a coefficient of 0,
+/// stays where it is.
+#[test]
+fn friction_without_a_largest_force_holds_nothing() -> Result<(), Error> {
+    let text = |first: &str, second: &str| {
+        format!(
+            "Forth {{
+                dof = 2;
+                body {first} (x = a) {{ mass = 1 [kg]; }}
+                body {second} (x = b) {{ mass = 1 [kg]; }}
+                force pull on block = (10 [N]*sin(pi/2*t/(1 [s])), 0 [N]);
+                friction rub (block, ground) along (-1, 0) {{ coefficient = 0.3; normal = 20 [N]; law = coulomb; }}
+                friction pad (top, block) along (1, 0) {{ coefficient = 0; normal = 20 [N]; law = coulomb; }}
+            }}"
+        )
+    };
+    assert_eq!(at(&text("top", "block"), 4.3)?, [0.0, 0.0]);
+    let block = at(&text("block", "top"), 4.3)?;
+    assert!(block[0].abs() < 1e-8 && block[1] == 0.0, "{block:?}");
+    Ok(())
+}
+
+/// A block is pressed against a stop and then pulled away: friction holds it until its largest force is reached, where
+/// sin 2t = −5/19.
+#[test]
+fn friction_holds_what_leaves_a_stop() -> Result<(), Error> {
+    let text = "Held {
+        dof = 1;
+        body block (x) { mass = 1 [kg]; }
+        force pull on x = 19 [N]*sin(2*t/(1 [s]));
+        friction rub (block, ground) along (1, 0) { coefficient = 0; static = 0.25; normal = 20 [N]; law = coulomb; }
+        stop end: x <= 0 [m] { restitution = 0.25; }
+        start { x = -0.01 [m]; der(x) = 0.1 [m/s]; }
+    }";
+    let leaves = f64::midpoint(std::f64::consts::PI, (5.0_f64 / 19.0).asin());
+    assert!(at(text, leaves - 1e-4)?[0].abs() < 1e-12);
+    // with 5 N and more, over 10 ms
+    let (h, [x, v]) = (1e-2, at(text, leaves + 1e-2)?);
+    assert!((x + 2.5 * h * h).abs() < 0.2 * h * h && (v + 5.0 * h).abs() < 0.4 * h, "{x} {v}");
+    Ok(())
+}
+
+/// An impact that takes all of the speed turns friction around: towards the stop the block is slowed down by 25 N, from
+/// it driven by 15 N.
+#[test]
+fn an_impact_that_halts_turns_friction_around() -> Result<(), Error> {
+    let text = "Thrown {
+        dof = 1;
+        body block (x) { mass = 2 [kg]; }
+        force push on x = -20 [N];
+        friction rub (block, ground) along (1, 0) { coefficient = 0.25; normal = 20 [N]; law = coulomb; }
+        stop end: x <= 0.5 [m] { restitution = 0; }
+        start { x = 0.4 [m]; der(x) = 2 [m/s]; }
+    }";
+    let hits = (2.0 - 1.5_f64.sqrt()) / 12.5;
+    let [x, v] = at(text, hits + 0.1)?;
+    assert!((x - (0.5 - 3.75 * 0.01)).abs() < 1e-9 && (v + 0.75).abs() < 1e-8, "{x} {v}");
     Ok(())
 }

@@ -93,9 +93,13 @@ static int NAME_exchanged(const real *contacts, const int *active, int by, const
    those that are bound; 0 where there is none. */
 static int NAME_complementary(const real *contacts, const int *set, const int *bound, const real *b, real *x)
 {
-    int active[CAPS_ROWS], open[CAPS_ROWS];
+    int active[CAPS_ROWS], open[CAPS_ROWS], is_bound = 0;
     for (int row = 0; row < CAPS_ROWS; row++) {
-        active[row] = bound[row] && set[row];
+        is_bound = is_bound || (bound[row] && set[row]);
+    }
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        /* stops press before friction holds, where they depend on each other */
+        active[row] = is_bound && set[row];
         open[row] = set[row] && !bound[row];
     }
     for (int pivots = 0; pivots < 512; pivots++) {

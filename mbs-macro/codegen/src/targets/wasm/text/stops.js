@@ -74,7 +74,9 @@ class AtStops extends Sticking {
   // x >= 0 with W x + b >= 0 at the stops of a set, one or the other 0 at each, by pivots of the least index; W x + b = 0 at
   // those that are bound.
   complementary(set, b, bound = this.each(() => false)) {
-    const active = set.map((it, stop) => it && bound[stop]), open = set.map((it, stop) => it && !bound[stop]);
+    // stops press before friction holds, where they depend on each other
+    const isBound = set.some((it, stop) => it && bound[stop]), active = set.map((it) => it && isBound);
+    const open = set.map((it, stop) => it && !bound[stop]);
     for (let pivots = 0; pivots < 512; pivots++) {
       const x = this.solveAtStops(active, b);
       let wrong = this.leastWrong(open, active, b, x);
