@@ -17,15 +17,14 @@ use crate::equations::{At, Equations};
 use crate::mechanism::growth_limit;
 use crate::moreau::Changes;
 use crate::pressing::{held, pressed};
-use crate::sticking::{Limits, all_frictions, direction, frictions, hold, holding, set, unanswered};
-use crate::{Error, Real, vectors};
-
-/// A force is within its limit up to rounding by this share.
-const ROUNDING: f64 = 1e-12;
+use crate::sticking::{Limits, all_frictions, direction, frictions, hold, holding, loose, set, unanswered};
+use crate::{Error, Info, Real, vectors};
 
 /// Frictions at the end of a step.
 struct Halting<T> {
-    /// Those whose speeds are led to 0.
+    /// Those that stuck in the step or have crossed in it.
+    all: u32,
+    /// Those of them whose speeds are led to 0.
     halted: u32,
     /// The directions in which they slide from then on.
     directions: Each<f64>,
@@ -56,9 +55,8 @@ pub(crate) fn halt<T: Real>(
         return Ok(false);
     }
     let rates = Gaps::of(equations, At { t, q, v }, changes.still).rate;
-    let is_crossed = |row: usize| direction(info, inputs, row) * number(&rates, row) < 0.0;
-    let crossed = frictions(info).filter(|(row, _)| is_crossed(*row));
-    let crossed = crossed.fold(0, |set, (row, _)| set | bit(row));
+    let memory = |row: usize| (direction(info, inputs, row), holding(info, inputs, row));
+    let crossed = crossing(info, &rates, memory);
     let has_acted = (pushed & friction) | crossed != 0;
     if has_acted {
         let resting = held(equations, inputs) & !friction;
@@ -67,39 +65,23 @@ pub(crate) fn halt<T: Real>(
         pressed(equations, at, inputs, changes.q, Some(&mut *changes.rows));
         let limits = Limits::of(equations, at, inputs, [changes.q, changes.rows]);
         let was = Gaps::of(equations, before, changes.still).rate;
-        // sliding may come to a halt by the impulses of those that stick
-        let (stuck, mut all, mut ends) = (pushed & friction, pushed & friction, rates);
-        let memory = |row: usize| (direction(info, inputs, row), holding(info, inputs, row));
         vectors::fill(changes.q, T::ZERO);
         vectors::fill(changes.v, T::ZERO);
-        let (changes_of_q, changes_of_v) = (&mut *changes.q, &mut *changes.v);
         let answered = Contacts::at(equations, (t, q), |contacts| {
-            loop {
-                let mut halting = Halting::new((h, stuck, all & !stuck), [&was, &ends], &limits, memory);
-                let impulses = halting.answer(&contacts, resting, &rates)?;
-                let changes = contacts.rates(&impulses);
-                let rate = |row: usize| of(&rates, row) + of(&changes, row);
-                let is_late = |row: usize| !has(all, row) && memory(row).0 * rate(row).to_f64() < 0.0;
-                let late = frictions(info).filter(|(row, _)| is_late(*row));
-                let late = late.fold(0, |set, (row, _)| set | bit(row));
-                if late == 0 {
-                    contacts.add(&impulses, changes_of_v);
-                    let moved = core::array::from_fn(|row| of(&impulses, row) * of(&halting.shift, row));
-                    contacts.add(&moved, changes_of_q);
-                    return Some(halting.directions);
-                }
-                for (row, end) in ends.iter_mut().enumerate().filter(|(row, _)| has(late, *row)) {
-                    *end = rate(row);
-                }
-                all |= late;
-            }
+            let sets = [pushed & friction, resting];
+            let (halting, impulses) =
+                Halting::answered(info, &contacts, (h, sets), [&was, &rates], (&limits, memory))?;
+            let moved = core::array::from_fn(|row| of(&impulses, row) * of(&halting.shift, row));
+            contacts.add(&impulses, changes.v);
+            contacts.add(&moved, changes.q);
+            Some(halting)
         });
-        let directions =
+        let halting =
             answered.flatten().ok_or_else(|| unanswered(info, t.to_f64(), pushed & friction | crossed))?;
         vectors::zip_map(q, changes.q, |q, change| q + change);
         vectors::zip_map(v, changes.v, |v, change| v + change);
-        for (row, _) in frictions(info).filter(|(row, _)| has(all, *row)) {
-            let turned = directions.get(row).copied().unwrap_or(0.0);
+        for (row, _) in frictions(info).filter(|(row, _)| has(halting.all, *row)) {
+            let turned = halting.directions.get(row).copied().unwrap_or(0.0);
             set(info, inputs, row, (turned, T::ZERO));
         }
     }
@@ -107,7 +89,39 @@ pub(crate) fn halt<T: Real>(
     Ok(has_acted)
 }
 
+/// The frictions that go against the directions in which they slid.
+fn crossing<T: Real>(info: &Info, rates: &Each<T>, memory: impl Fn(usize) -> (f64, T)) -> u32 {
+    let crossed = frictions(info).filter(|(row, _)| memory(*row).0 * number(rates, *row) < 0.0);
+    crossed.fold(0, |set, (row, _)| set | bit(row))
+}
+
 impl<T: Real> Halting<T> {
+    /// With the impulses: those that stuck and stops that are rested on, and what they lead to a halt beside what halts by
+    /// itself. Nothing in a singular position.
+    fn answered(
+        info: &Info,
+        contacts: &Contacts<'_, T>,
+        (h, [stuck, resting]): (T, [u32; 2]),
+        [was, rates]: [&Each<T>; 2],
+        (limits, memory): (&Limits<T>, impl Fn(usize) -> (f64, T) + Copy),
+    ) -> Option<(Self, Each<T>)> {
+        let (mut crossed, mut ends) = (0, *rates);
+        loop {
+            let mut halting = Self::new((h, stuck, crossed), [was, &ends], limits, memory);
+            let impulses = halting.impulses(contacts, resting, rates)?;
+            let changes = contacts.rates(&impulses);
+            let after = core::array::from_fn(|row| of(rates, row) + of(&changes, row));
+            let late = crossing(info, &after, memory) & !halting.all;
+            if late == 0 {
+                return Some((halting, impulses));
+            }
+            for (row, end) in ends.iter_mut().enumerate().filter(|(row, _)| has(late, *row)) {
+                *end = of(&after, row);
+            }
+            crossed |= late;
+        }
+    }
+
     fn new(
         (h, stuck, crossed): (T, u32, u32),
         [was, rates]: [&Each<T>; 2],
@@ -118,7 +132,8 @@ impl<T: Real> Halting<T> {
         let none = [T::ZERO; MOST_CONTACTS];
         let directions = [0.0; MOST_CONTACTS];
         let halted = stuck | crossed;
-        let mut it = Self { halted, directions, given: none, most: none, loose: none, shift: none };
+        let mut it =
+            Self { all: halted, halted, directions, given: none, most: none, loose: none, shift: none };
         for row in (0..MOST_CONTACTS).filter(|row| has(stuck | crossed, *row)) {
             let (sliding, sticking) = (limits.sliding(row), limits.sticking(row));
             let (direction, held) = memory(row);
@@ -148,7 +163,7 @@ impl<T: Real> Halting<T> {
 
     /// The impulses of frictions and at stops that are rested on; the worst one that needs more than it can have slides on.
     /// Nothing in a singular position.
-    fn answer(&mut self, contacts: &Contacts<'_, T>, resting: u32, rates: &Each<T>) -> Option<Each<T>> {
+    fn impulses(&mut self, contacts: &Contacts<'_, T>, resting: u32, rates: &Each<T>) -> Option<Each<T>> {
         // written so that a NaN is no growth
         let has_growth = contacts.growth() < growth_limit();
         if !has_growth {
@@ -160,23 +175,14 @@ impl<T: Real> Halting<T> {
             let b = core::array::from_fn(|row| of(rates, row) + of(&changes, row));
             let x = contacts.solve(self.halted | resting, &b);
             let total: Each<T> = core::array::from_fn(|row| of(&x, row) + of(&self.given, row));
-            let beyond = |row: usize| {
-                let (impulse, most) = (number(&total, row).abs(), number(&self.most, row));
-                match most > 0.0 {
-                    true if impulse > (1.0 + ROUNDING) * most => impulse / most,
-                    true => 0.0,
-                    false => f64::INFINITY,
-                }
-            };
-            let loose = (0..MOST_CONTACTS).filter(|row| has(self.halted, *row) && beyond(*row) > 0.0);
-            let worst = loose.reduce(|worst, row| if beyond(row) > beyond(worst) { row } else { worst });
+            let worst = loose(self.halted, &total, |row| number(&self.most, row));
             let Some(row) = worst else {
                 return Some(core::array::from_fn(|row| of(&x, row) + of(&fixed, row)));
             };
             let is_forwards = number(&total, row) > 0.0;
-            let (loose, given) = (of(&self.loose, row), of(&self.given, row));
+            let (most, given) = (of(&self.loose, row), of(&self.given, row));
             if let (Some(fixed), Some(direction)) = (fixed.get_mut(row), self.directions.get_mut(row)) {
-                *fixed = if is_forwards { loose } else { -loose } - given;
+                *fixed = if is_forwards { most } else { -most } - given;
                 *direction = if is_forwards { -1.0 } else { 1.0 };
             }
             self.halted &= !bit(row);

@@ -107,6 +107,67 @@ impl<T: Real> Limits<T> {
     }
 }
 
+/// The friction of a set whose force, or impulse, is farthest beyond the largest one that it may have, by its row.
+pub(crate) fn loose<T: Real>(set: u32, forces: &Each<T>, most: impl Fn(usize) -> f64) -> Option<usize> {
+    let beyond = |row: usize| {
+        let (force, most) = (number(forces, row).abs(), most(row));
+        // what has no largest force does not stick
+        match most > 0.0 {
+            true if force > (1.0 + ROUNDING) * most => force / most,
+            true => 0.0,
+            false => f64::INFINITY,
+        }
+    };
+    let found = (0..MOST_CONTACTS).filter(|row| has(set, *row) && beyond(*row) > 0.0);
+    found.reduce(|worst, row| if beyond(row) > beyond(worst) { row } else { worst })
+}
+
+/// Forces that hold in a state, and the accelerations with them.
+struct Holding<T> {
+    held: u32,
+    forces: Each<T>,
+    /// s̈, and g̈
+    accelerations: Each<T>,
+    /// W of each row with itself.
+    own: Each<T>,
+    limits: Limits<T>,
+}
+
+impl<T: Real> Holding<T> {
+    /// With the memories as they are, of stops that may be rested on and frictions that stick. Nothing where no forces answer.
+    fn of(
+        equations: &dyn Equations<T>,
+        at: At<'_, T>,
+        inputs: &[T],
+        [resting, sticking]: [u32; 2],
+        [a, lambda]: [&mut [T]; 2],
+    ) -> Option<Self> {
+        equations.free_reactions(at, inputs, a, lambda);
+        let free = Gaps::of(equations, at, a).acceleration;
+        let solved = Contacts::at(equations, (at.t, at.q), |contacts| {
+            let (held, forces) = contacts.complementary(resting | sticking, sticking, &free)?;
+            contacts.add(&forces, a);
+            contacts.react(&forces, lambda);
+            let changes = contacts.rates(&forces);
+            let own = core::array::from_fn(|row| contacts.mobility(row, row));
+            Some((held, forces, changes, own))
+        });
+        let none = [T::ZERO; MOST_CONTACTS];
+        let (held, forces, changes, own) = solved.unwrap_or(Some((0, none, none, none)))?;
+        let sum = |row: usize| Some(*free.get(row)? + *changes.get(row)?);
+        let accelerations = core::array::from_fn(|row| sum(row).unwrap_or_default());
+        let limits = Limits::of(equations, at, inputs, [a, lambda]);
+        Some(Self { held, forces, accelerations, own, limits })
+    }
+
+    /// True if friction that slides from rest would move against its direction.
+    fn turns(&self, row: usize, direction: f64) -> bool {
+        let most = self.limits.sticking(row).to_f64();
+        let least = 2.0 * BREAKS * number(&self.own, row) * most;
+        least > 0.0 && direction * number(&self.accelerations, row) < -least
+    }
+}
+
 /// Decides which frictions stick and which stops are rested on, and sets the memories of the frictions that are still.
 ///
 /// # Errors
@@ -118,59 +179,31 @@ pub(crate) fn decide<T: Real>(
     Undecided { resting, still, breaking }: Undecided,
     [a, lambda]: [&mut [T]; 2],
 ) -> Result<Held<T>, Error> {
-    let info = equations.info();
-    let mut sticking = still;
+    let (info, mut sticking) = (equations.info(), still);
     for _ in 0..=TRIES * info.frictions.len() {
         for (row, _) in frictions(info).filter(|(row, _)| has(sticking, *row)) {
             set(info, inputs, row, (0.0, T::ZERO));
         }
-        equations.free_reactions(at, inputs, a, lambda);
-        let gaps = Gaps::of(equations, at, a);
-        let solved = Contacts::at(equations, (at.t, at.q), |contacts| {
-            let (held, forces) = contacts.complementary(resting | sticking, sticking, &gaps.acceleration)?;
-            contacts.add(&forces, a);
-            contacts.react(&forces, lambda);
-            let own = core::array::from_fn(|row| contacts.mobility(row, row).to_f64());
-            Some((held, forces, contacts.rates(&forces), own))
-        });
-        let (held, forces, changes, own) = match solved {
-            Some(solved) => solved.ok_or_else(|| unanswered(info, at.t.to_f64(), resting | sticking))?,
-            None => (0, [T::ZERO; MOST_CONTACTS], [T::ZERO; MOST_CONTACTS], [0.0; MOST_CONTACTS]),
-        };
-        let limits = Limits::of(equations, at, inputs, [a, lambda]);
-        // by how much of its limit a force is beyond it
-        let beyond = |row: usize| {
-            let (force, most) = (number(&forces, row).abs(), limits.sticking(row).to_f64());
-            let allowed = if has(breaking, row) { (1.0 - BREAKS) * most } else { (1.0 + ROUNDING) * most };
-            // what has no largest force does not stick
-            match most > 0.0 {
-                true if force > allowed => force / most,
-                true => 0.0,
-                false => f64::INFINITY,
-            }
-        };
-        let rows = || frictions(info).map(|(row, _)| row);
-        let loose = rows().filter(|row| has(sticking, *row) && beyond(*row) > 0.0);
-        if let Some(row) = loose.reduce(|worst, row| if beyond(row) > beyond(worst) { row } else { worst }) {
-            let direction = if number(&forces, row) > 0.0 { -1.0 } else { 1.0 };
+        let found = Holding::of(equations, at, inputs, [resting, sticking], [&mut *a, &mut *lambda]);
+        let found = found.ok_or_else(|| unanswered(info, at.t.to_f64(), resting | sticking))?;
+        let share = |row: usize| if has(breaking, row) { 1.0 - BREAKS } else { 1.0 };
+        let most = |row: usize| share(row) * found.limits.sticking(row).to_f64();
+        if let Some(row) = loose(sticking, &found.forces, most) {
+            let direction = if number(&found.forces, row) > 0.0 { -1.0 } else { 1.0 };
             set(info, inputs, row, (direction, T::ZERO));
             sticking &= !bit(row);
             continue;
         }
-        let turns = |row: usize| {
-            let acceleration = number(&gaps.acceleration, row) + number(&changes, row);
-            let most = limits.sticking(row).to_f64();
-            let least = 2.0 * BREAKS * own.get(row).copied().unwrap_or(0.0) * most;
-            least > 0.0 && direction(info, inputs, row) * acceleration < -least
-        };
-        if let Some(row) = rows().find(|row| has(still & !sticking, *row) && turns(*row)) {
+        let mut sliding = frictions(info).filter(|(row, _)| has(still & !sticking, *row));
+        if let Some((row, _)) = sliding.find(|(row, _)| found.turns(*row, direction(info, inputs, *row))) {
             sticking |= bit(row);
             continue;
         }
-        for row in rows().filter(|row| has(sticking, *row)) {
-            set(info, inputs, row, (0.0, forces.get(row).copied().unwrap_or_default()));
+        for (row, _) in frictions(info).filter(|(row, _)| has(sticking, *row)) {
+            let force = found.forces.get(row).copied().unwrap_or_default();
+            set(info, inputs, row, (0.0, force));
         }
-        return Ok(Held { held, forces });
+        return Ok(Held { held: found.held, forces: found.forces });
     }
     Err(unanswered(info, at.t.to_f64(), still))
 }
