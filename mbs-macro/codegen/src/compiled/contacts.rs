@@ -4,7 +4,7 @@ use proc_macro2::Span;
 
 use super::{Compiled, Quantity};
 
-/// An end of the way; see [`FunctionId::Gaps`].
+/// An end of the way; see [`FunctionId::Gaps`](super::FunctionId::Gaps).
 pub struct Stop {
     /// Its name, and the unit of its gap.
     pub quantity: Quantity,
@@ -16,7 +16,7 @@ pub struct Stop {
     pub span: Span,
 }
 
-/// Friction that sticks; see [`FunctionId::Limits`].
+/// Friction that sticks; see [`FunctionId::Limits`](super::FunctionId::Limits).
 pub struct Friction {
     /// Its name.
     pub name: String,
@@ -29,7 +29,7 @@ pub struct Friction {
 }
 
 impl Compiled {
-    /// The number of results of [`FunctionId::Contacts`].
+    /// The number of results of [`FunctionId::Contacts`](super::FunctionId::Contacts).
     pub(super) fn contact_count(&self) -> usize {
         let contacts = self.contacts();
         let response = 2 * self.coordinates.len() + self.constraints.len() + contacts;
