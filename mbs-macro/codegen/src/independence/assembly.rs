@@ -24,7 +24,7 @@ pub const CLOSED: f64 = 1e-10;
 
 /// A residual is rounding below this share of the terms that it is made of: some ten
 /// operations, each to ε.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A row whose slope over a typical length falls below this share of its terms
 /// restricts nothing: far below that of an eccentric of a micrometre at a metre, far
@@ -139,17 +139,23 @@ impl<'a> Assembly<'a> {
         apart.fold(0.0, f64::max)
     }
 
-    /// True if every one of these rows is met: by its residual as a distance in the
-    /// coordinates, or to the rounding of its terms.
+    /// True if every one of these rows is met.
     pub fn are_met(&self, rows: &[usize], at: &Position) -> bool {
         let phi = self.phi(at);
+        self.met(at, &phi, rows).into_iter().all(|is_met| is_met)
+    }
+
+    /// Of each of these rows, true if it is met: by its residual as a distance in the
+    /// coordinates, or to the rounding of its terms.
+    pub fn met(&self, at: &Position, phi: &[f64], rows: &[usize]) -> Vec<bool> {
         let scales = self.jacobian(at).1;
         let sizes = self.sizes(at);
         let limit = CLOSED * (1.0 + self.size(at));
-        rows.iter().all(|&row| {
+        let is_met = |&row: &usize| {
             let violation = phi[row].abs();
             violation <= limit * scales[row] || violation <= ROUNDING * sizes[row]
-        })
+        };
+        rows.iter().map(is_met).collect()
     }
 
     /// Σ|terms| of every row of Φ.
@@ -185,7 +191,7 @@ impl<'a> Assembly<'a> {
     /// others are not.
     pub fn violation(&self, row: usize, closing: &Closing) -> Option<f64> {
         let violation = (closing.phi[row] / self.jacobian(&closing.at).1[row]).abs();
-        let is_met = violation <= CLOSED * (1.0 + self.size(&closing.at));
+        let is_met = self.met(&closing.at, &closing.phi, &[row]) == [true];
         (closing.is_closed && !is_met).then_some(violation)
     }
 

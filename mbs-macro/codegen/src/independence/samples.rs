@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Arena, Expr, Symbol};
 
-use super::assembly::Position;
+use super::assembly::{Position, ROUNDING};
 use super::echelon::{Echelon, row_echelon};
 use super::size::sizes;
 use super::sparse::{SparseRow, scale};
@@ -183,7 +183,8 @@ fn declared_start(model: &Model) -> Vec<f64> {
 
 /// The size of the mechanism in m: the largest length that its constraints compare,
 /// which are angles and given lengths where all coordinates that are lengths are 0.
-/// Without any, the largest parameter that is a length, or 1 m.
+/// Without any, the largest parameter that is a length, or 1 m. A length below the rounding
+/// of the places of points is what numbers leave that were meant to cancel.
 pub fn typical_length(model: &Model) -> f64 {
     let is_usable = |length: &f64| *length > 0.0 && length.is_finite();
     let mut generator = Generator::new();
@@ -206,7 +207,9 @@ pub fn typical_length(model: &Model) -> f64 {
     let squares = of_dimension(Dimension::LENGTH.times(Dimension::LENGTH)).into_iter();
     let squares = squares.map(|(_, size)| size.sqrt());
     let lengths = largest_way(model, &value, of_dimension(Dimension::LENGTH));
-    let compared = lengths.into_iter().chain(squares);
+    let places: Vec<Expr> = model.sketch.points.iter().filter_map(|point| point.local).flatten().collect();
+    let farthest = model.arena.evaluate(&places, &value).into_iter().map(f64::abs).fold(0.0, f64::max);
+    let compared = lengths.into_iter().chain(squares).filter(|length| *length > ROUNDING * farthest);
     let parameters = model.parameters.iter().filter(|p| p.quantity.dimension == Dimension::LENGTH);
     let parameters = parameters.map(|p| p.value.abs()).filter(is_usable);
     compared.reduce(f64::max).or_else(|| parameters.reduce(f64::max)).unwrap_or(1.0)

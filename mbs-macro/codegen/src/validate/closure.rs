@@ -184,10 +184,9 @@ fn check_redundant(
     at: &Position,
     phi: &[f64],
 ) -> Result<(), Diagnostics> {
-    let scales = programs.assembly.jacobian(at).1;
-    let limit = CLOSED * (1.0 + programs.size(&at.q));
-    let sizes = plan.rows.redundant.iter().map(|&row| (row, phi[row].abs()));
-    let open = sizes.filter(|&(row, violation)| violation > limit * scales[row]);
+    let redundant = &plan.rows.redundant;
+    let met = programs.assembly.met(at, phi, redundant);
+    let open = redundant.iter().zip(met).filter(|(_, is_met)| !is_met).map(|(&row, _)| (row, phi[row].abs()));
     match open.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((row, violation)) => Err(does_not_fit(model, row, violation, at.t).into()),
         None => Ok(()),
