@@ -10,6 +10,8 @@ pub struct Knots {
     pub at: &'static [f64],
     /// After which they come again; 0 without one.
     pub period: f64,
+    /// False where it is known that the function only bends.
+    pub jumps: bool,
 }
 
 impl Knots {
@@ -115,7 +117,7 @@ mod tests {
 
     #[test]
     fn every_passage_is_met_on_both_sides() {
-        let knots = Knots { at: &[1.0, 2.0, 4.0], period: 0.0 };
+        let knots = Knots { at: &[1.0, 2.0, 4.0], period: 0.0, jumps: false };
         for (line, expected) in [
             ([1.0, 0.0], vec![1.0, 2.0, 4.0]),
             ([2.0, -1.0], vec![1.0, 1.5, 2.5]),
@@ -134,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_period_comes_again() {
-        let knots = Knots { at: &[0.0, 0.25], period: 1.0 };
+        let knots = Knots { at: &[0.0, 0.25], period: 1.0, jumps: false };
         for (line, count) in [([1.0, 0.0], 21), ([-1.0, 0.0], 20), ([10.0, 0.1], 200)] {
             // the corner at 0 is behind the start, or just before it
             let found = times(line, knots, 10.0 + 1e-9);

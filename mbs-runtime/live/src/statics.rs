@@ -118,8 +118,8 @@ fn sampling(compiled::Sampling { memories, clocks, samples }: &compiled::Samplin
     Sampling { memories: *memories, clocks: *clocks, samples: leak(samples.iter().copied()) }
 }
 
-fn knots(compiled::Knots { at, period }: &compiled::Knots) -> Knots {
-    Knots { at: leak(at.iter().copied()), period: period.unwrap_or_default() }
+fn knots(compiled::Knots { at, period, jumps }: &compiled::Knots) -> Knots {
+    Knots { at: leak(at.iter().copied()), period: period.unwrap_or_default(), jumps: *jumps }
 }
 
 fn quantity(quantity: &compiled::Quantity, default: f64) -> Quantity {

@@ -69,7 +69,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             let t = self.now.t.to_f64();
             if rate.abs() <= held {
                 let count = self.switching.rounded.get_mut(index);
-                if is_passed && counted(count) >= MOST_ROUNDED {
+                // of a law that only bends, rounding decides nothing
+                if is_passed && counted(count) >= MOST_ROUNDED && switch.knots.jumps {
                     return Err(Error::Undecided { t, name: switch.name });
                 }
                 continue;

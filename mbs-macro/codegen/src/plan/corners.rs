@@ -25,6 +25,8 @@ pub struct Knots {
     pub at: Vec<f64>,
     /// The period.
     pub period: Option<f64>,
+    /// True unless it is known that the function only bends there.
+    pub jumps: bool,
 }
 
 /// A value a t + b that has its knots where time passes them; a and b depend on parameters and inputs.
@@ -82,15 +84,19 @@ fn push<T: PartialEq>(all: &mut Vec<T>, new: T) {
 /// The argument of a function of pieces, and where these bend or jump. Of time they are all points of a table: a step
 /// over the points of a smooth one may step over what is between them.
 fn knots(arena: &mut Arena, node: Expr, is_of_time: bool) -> Option<(Expr, Knots)> {
-    let zero = || Knots { at: vec![0.0], period: None };
+    let zero = |function: Function| {
+        let jumps = function.row().pieces != Pieces::Kinked;
+        Knots { at: vec![0.0], period: None, jumps }
+    };
     match *arena.node(node) {
-        Node::Spline(spline, _, argument) => {
+        Node::Spline(spline, order, argument) => {
             let spline = arena.splines().get(spline.index())?;
             let at = if is_of_time { spline.points() } else { spline.knots() };
-            Some((argument, Knots { at, period: spline.period }))
+            let jumps = order > 0 || spline.has_jumps();
+            Some((argument, Knots { at, period: spline.period, jumps }))
         }
-        Node::Call(function, [x, y]) if function.row().arity == 2 => Some((arena.sub(x, y), zero())),
-        Node::Call(_, [x, _]) => Some((x, zero())),
+        Node::Call(function, [x, y]) if function.row().arity == 2 => Some((arena.sub(x, y), zero(function))),
+        Node::Call(function, [x, _]) => Some((x, zero(function))),
         _ => None,
     }
 }

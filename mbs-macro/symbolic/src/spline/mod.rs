@@ -167,6 +167,14 @@ impl Spline {
         points
     }
 
+    /// True if the value itself jumps somewhere.
+    pub fn has_jumps(&self) -> bool {
+        match &self.bends {
+            Some(bends) => bends.order == 0,
+            None => self.corners().iter().any(|(_, jumps)| *jumps),
+        }
+    }
+
     /// The [`knots`](Self::knots) with the word whether the value itself jumps there.
     pub fn corners(&self) -> Vec<(f64, bool)> {
         let jumps = self.jumps().into_iter();

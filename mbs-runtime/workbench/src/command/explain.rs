@@ -129,7 +129,7 @@ fn switches(switching: &[Switch]) -> String {
         return text;
     }
     let mut table = Table::new(["", "at"]);
-    for Switch { name, knots: Knots { at, period } } in switching {
+    for Switch { name, knots: Knots { at, period, .. } } in switching {
         let mut knots = match at {
             [first, .., last] if at.len() > MOST_KNOTS => {
                 format!("{} points from {} to {}", at.len(), significant(*first, 6), significant(*last, 6))

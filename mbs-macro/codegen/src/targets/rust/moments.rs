@@ -8,9 +8,9 @@ use super::names::{Names, field};
 use super::program::body;
 use crate::compiled::{Compiled, FunctionId, Knots, Sampling};
 
-fn knots(Knots { at, period }: &Knots, names: &Names) -> TokenStream {
+fn knots(Knots { at, period, jumps }: &Knots, names: &Names) -> TokenStream {
     let (runtime, period) = (&names.runtime, period.unwrap_or_default());
-    quote!(#runtime::Knots { at: &[#(#at),*], period: #period })
+    quote!(#runtime::Knots { at: &[#(#at),*], period: #period, jumps: #jumps })
 }
 
 /// The switches and their values; nothing without one.
