@@ -2,6 +2,7 @@
 //! `tests/long`.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
+mod bristles;
 mod energy;
 mod rests;
 mod several;

@@ -50,6 +50,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Element(element) => {
                 let ends = element.second.clone().map(|second| [element.first.clone(), second]);
                 self.declare_source(&element.name, element.kind.word, ends);
+                self.declare_bristle(element);
             }
             _ => {}
         }

@@ -24,6 +24,7 @@ struct Resolved {
     along: [Expr; 2],
     values: BTreeMap<&'static str, Vec<Expr>>,
     memories: Option<[Expr; 2]>,
+    state: Option<Expr>,
 }
 
 impl Resolver<'_> {
@@ -38,7 +39,7 @@ impl Resolver<'_> {
         let mut effects = Effects::new(&self.scope.motion);
         let algebra = Algebra::new(&mut self.scope.arena);
         (element.kind.forces)(&resolved.on(&algebra), &mut effects);
-        let Effects { applied, energies, exerts, gap, sticks, .. } = effects;
+        let Effects { applied, energies, exerts, gap, sticks, state_rate, .. } = effects;
         for applied in applied {
             self.push_applied(&element.name, applied);
         }
@@ -49,6 +50,9 @@ impl Resolver<'_> {
         }
         if let Some(sticks) = sticks {
             self.push_friction(&element.name, sticks);
+        }
+        if let Some(rate) = state_rate {
+            self.push_bristle_rate(&element.name, rate);
         }
     }
 
@@ -79,13 +83,15 @@ impl Resolver<'_> {
             None => [self.scope.arena.one(), self.scope.arena.zero()],
         };
         let memories = self.friction_memories(element);
-        Some(Resolved { first, second, along, values, memories })
+        let state = self.bristle(element);
+        Some(Resolved { first, second, along, values, memories, state })
     }
 
     /// The names that properties of an element know beside others.
     fn known(&mut self, element: &Element, first: Placed, second: Placed) -> Vec<Local> {
         let along = [self.scope.arena.one(), self.scope.arena.zero()];
-        let resolved = Resolved { first, second, along, values: BTreeMap::new(), memories: None };
+        let values = BTreeMap::new();
+        let resolved = Resolved { first, second, along, values, memories: None, state: None };
         let effects = Effects::new(&self.scope.motion);
         let algebra = Algebra::new(&mut self.scope.arena);
         let on = resolved.on(&algebra);
@@ -236,6 +242,7 @@ impl Resolved {
             along: algebra.vector(self.along),
             values: self.values.clone(),
             memories: self.memories,
+            state: self.state,
         }
     }
 }
@@ -285,6 +292,13 @@ fn is_said(element: &Element) -> Result<(), Diagnostic> {
         }
         Err(Unsaid::Twice { first, second, keep }) => {
             (format!("`{name}` says its `{first}` and its `{second}`"), keep.to_owned())
+        }
+        Err(Unsaid::OfOthers { property, word, others }) => {
+            let others: Vec<_> = others.into_iter().map(|word| format!("`law = {word};`")).collect();
+            (
+                format!("`{name}` has a `{property}`, which `law = {word}` has not"),
+                format!("leave it out, or take {}", others.join(" or ")),
+            )
         }
     };
     Err(Diagnostic::new(name.span(), message).help(help))

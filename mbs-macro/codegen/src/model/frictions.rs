@@ -1,10 +1,11 @@
-//! Friction that sticks, `law = coulomb`: its memories, and the way along which it holds.
+//! Friction that sticks, `law = coulomb`: its memories, and the way along which it holds; and the own state of
+//! friction by bristles, `law = lugre`.
 //!
 //! A memory has the direction of sliding, −1 or 1, and is 0 while friction sticks; another one has the force with which
 //! it holds. Where it sticks a run asks for the response of the mechanism to an impulse along ∂s/∂q, s how far it has slid,
 //! as it does at [stops](super::stops).
 
-use mbs_symbolic::units::Unit;
+use mbs_symbolic::units::{Dimension, Unit};
 use mbs_symbolic::{Algebra, Expr, Stage};
 use proc_macro2::Ident;
 
@@ -14,7 +15,7 @@ use super::known::Value;
 use super::resolver::Resolver;
 use super::{Contact, Friction, Meaning};
 use crate::diagnostics::Diagnostic;
-use crate::mechanics::elements::{COULOMB, Sticks};
+use crate::mechanics::elements::{COULOMB, LUGRE, PRESLIDING, Sticks};
 use crate::quantity::Setting;
 use crate::syntax::Element;
 
@@ -54,6 +55,37 @@ impl Resolver<'_> {
             self.scope.symbol_of(Meaning::Input(memory + 1))?,
         ];
         Some(symbols.map(|symbol| self.scope.arena.variable(symbol)))
+    }
+
+    /// The own state of friction by bristles: how far they are bent.
+    pub(super) fn declare_bristle(&mut self, element: &Element) {
+        if !words_of(element).values().any(|word| *word == LUGRE) {
+            return;
+        }
+        let bent = element.kind.properties.iter().find(|row| row.name == PRESLIDING);
+        let is_length = bent.is_some_and(|row| row.dimension == Dimension::LENGTH);
+        let (text, dimension) = if is_length { ("m", Dimension::LENGTH) } else { ("rad", Dimension::NONE) };
+        let name = bristle_of(&element.name);
+        let unit = Unit { dimension, ..Unit::ONE };
+        self.declare_state_of(&name, quantity(&name, "how far its bristles are bent", text, unit));
+        if let Some(state) = self.state_named(&name) {
+            // the element says how it changes, and no one else
+            self.rates.insert(state, name.span());
+        }
+    }
+
+    /// The own state of an element whose bristles bend.
+    pub(super) fn bristle(&mut self, element: &Element) -> Option<Expr> {
+        let bends = words_of(element).values().any(|word| *word == LUGRE);
+        let state = self.state_named(&bristle_of(&element.name)).filter(|_| bends)?;
+        Some(self.scope.arena.variable(self.coordinates.get(state)?.velocity))
+    }
+
+    /// Enters how fast bristles bend.
+    pub(super) fn push_bristle_rate(&mut self, name: &Ident, rate: Expr) {
+        let name = bristle_of(name);
+        let Some(state) = self.state_named(&name) else { return };
+        self.push_rate(&name, state, rate);
     }
 
     /// Enters friction that sticks.
@@ -113,6 +145,14 @@ impl Resolver<'_> {
 
 /// The names of the memories of friction that sticks.
 fn memories_of(name: &Ident) -> [Ident; 2] {
-    ["direction", "held"]
-        .map(|what| Ident::new(&format!("{}_{what}", name.to_string().trim_start_matches("r#")), name.span()))
+    ["direction", "held"].map(|what| of(name, what))
+}
+
+/// The name of the own state of friction by bristles.
+fn bristle_of(name: &Ident) -> Ident {
+    of(name, "bristle")
+}
+
+fn of(name: &Ident, what: &str) -> Ident {
+    Ident::new(&format!("{}_{what}", name.to_string().trim_start_matches("r#")), name.span())
 }

@@ -3,8 +3,8 @@
 //! A state is the velocity of a block of its own ([`Coordinate`](super::Coordinate)), and the right
 //! side of its equation the load along it.
 
-use mbs_symbolic::Stage;
 use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Expr, Stage};
 use proc_macro2::Ident;
 
 use super::declare::quantity;
@@ -14,10 +14,16 @@ use super::resolver::Resolver;
 use super::{Block, Coordinate, Meaning, Start};
 use crate::diagnostics::{Diagnostic, listing, nearest};
 use crate::mechanics::Work;
+use crate::quantity::Quantity;
 use crate::syntax::{Formula, UnitText};
 
 impl Resolver<'_> {
     pub(super) fn declare_state(&mut self, name: &Ident, unit: &UnitText, doc: &str) {
+        self.declare_state_of(name, quantity(name, doc, &unit.text, unit.unit));
+    }
+
+    /// A state of this unit.
+    pub(super) fn declare_state_of(&mut self, name: &Ident, quantity: Quantity) {
         let (at, text) = (self.coordinates.len(), name.to_string());
         if self.scope.values.contains_key(&text) {
             self.scope.declare(name, Value::Refused(name.span()), &mut self.errors);
@@ -30,10 +36,8 @@ impl Resolver<'_> {
         let velocity = self.scope.symbol(&text, Stage::Variable, Meaning::Velocity(at));
         self.scope.motion.add_coordinate(position, velocity);
         self.scope.symbol(&format!("der({text})"), Stage::Variable, Meaning::Acceleration(at));
-        let dimension = unit.unit.dimension;
-        let value = Value::Symbol { symbol: velocity, dimension, span: name.span() };
+        let value = Value::Symbol { symbol: velocity, dimension: quantity.dimension, span: name.span() };
         self.scope.declare(name, value, &mut self.errors);
-        let quantity = quantity(name, doc, &unit.text, unit.unit);
         let (span, block) = (name.span(), Block::Own);
         self.coordinates.push(Coordinate { quantity, span, position, velocity, block });
     }
@@ -74,10 +78,15 @@ impl Resolver<'_> {
         }
         let dimension = self.coordinates[coordinate].quantity.dimension.over(Dimension::TIME);
         let value = self.scope.formula_of(value, Place::Rate, (&what, dimension), &mut self.errors);
-        if let Some(force) = value {
-            let along = vec![(coordinate, self.scope.arena.one())];
-            self.push_work(name, Work { force, along });
+        if let Some(rate) = value {
+            self.push_rate(name, coordinate, rate);
         }
+    }
+
+    /// The rate of a state is the load along its block.
+    pub(super) fn push_rate(&mut self, name: &Ident, coordinate: usize, rate: Expr) {
+        let along = vec![(coordinate, self.scope.arena.one())];
+        self.push_work(name, Work { force: rate, along });
     }
 
     /// The error for a rate of something that is no state.
@@ -114,7 +123,7 @@ impl Resolver<'_> {
     }
 
     /// The position of a state among the coordinates.
-    fn state_named(&self, name: &Ident) -> Option<usize> {
+    pub(super) fn state_named(&self, name: &Ident) -> Option<usize> {
         self.coordinate_named(&name.to_string()).filter(|&at| self.coordinates[at].is_own())
     }
 

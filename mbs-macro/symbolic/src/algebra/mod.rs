@@ -165,6 +165,11 @@ impl<'a> Scalar<'a> {
         self.of(Function::Tanh)
     }
 
+    /// eˣ
+    pub fn exp(self) -> Self {
+        self.of(Function::Exp)
+    }
+
     /// ln x
     pub fn ln(self) -> Self {
         self.of(Function::Ln)

@@ -19,6 +19,8 @@ pub struct Element<'a> {
     pub values: BTreeMap<&'static str, Vec<Expr>>,
     /// Where it may stick: the memories of which way it slides, and of the force that holds it.
     pub memories: Option<[Expr; 2]>,
+    /// Its own state, where it has one.
+    pub state: Option<Expr>,
 }
 
 impl<'a> Element<'a> {
@@ -54,6 +56,8 @@ pub struct Effects<'m> {
     pub gap: Option<(Expr, Expr)>,
     /// Dry friction that sticks.
     pub sticks: Option<Sticks>,
+    /// How fast its own state changes.
+    pub state_rate: Option<Expr>,
 }
 
 /// Dry friction that holds still what does not overcome it.
@@ -75,7 +79,15 @@ pub struct Exerts {
 impl<'m> Effects<'m> {
     /// None yet.
     pub fn new(motion: &'m Motion) -> Self {
-        Self { motion, applied: Vec::new(), energies: Vec::new(), exerts: None, gap: None, sticks: None }
+        Self {
+            motion,
+            applied: Vec::new(),
+            energies: Vec::new(),
+            exerts: None,
+            gap: None,
+            sticks: None,
+            state_rate: None,
+        }
     }
 
     /// ẋ

@@ -4,6 +4,9 @@
 //!   speed v_t the friction is a stiff damper, so what should stick creeps at up to v_t.
 //! * `law = coulomb`: F = −(μ |N| s + c v), s = ±1 the direction of sliding, which a run keeps in a memory. Where s = 0 it
 //!   sticks: F is what keeps v = 0, up to μ₀ |N|.
+//! * `law = lugre`: F = −(μ |N| (z + τ ż)/z_c + c v), ż = v − |v| z/(z_c g), g = 1 + (μ₀/μ − 1) exp(−(v/v_s)²). The own
+//!   state z is how far the bristles between the surfaces are bent (Canudas de Wit, Olsson, Åström and Lischinsky 1995,
+//!   whose σ₀ is μ |N|/z_c and σ₁ is τ σ₀).
 
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Function, Scalar};
@@ -16,9 +19,31 @@ const LAW: &str = "law";
 const SMOOTH: &str = "smooth";
 /// The law of friction that sticks.
 pub const COULOMB: &str = "coulomb";
-const LAWS: &[&str] = &[SMOOTH, COULOMB];
+/// The law of friction by bristles that bend.
+pub const LUGRE: &str = "lugre";
+const WORDS: &[&str] = &[SMOOTH, COULOMB, LUGRE];
+const TRANSITION: &str = "transition";
 const STATIC: &str = "static";
 const BREAKAWAY: &str = "breakaway";
+/// How far bristles are bent while they slide.
+pub const PRESLIDING: &str = "presliding";
+const RELAXATION: &str = "relaxation";
+const STRIBECK: &str = "stribeck";
+
+/// A law of dry friction.
+struct Law {
+    word: &'static str,
+    /// The properties that not all laws have.
+    has: &'static [&'static str],
+    /// Those without which it says nothing.
+    needs: &'static [&'static str],
+}
+
+const LAWS: [Law; 3] = [
+    Law { word: SMOOTH, has: &[TRANSITION], needs: &[TRANSITION] },
+    Law { word: COULOMB, has: &[STATIC, BREAKAWAY], needs: &[] },
+    Law { word: LUGRE, has: &[STATIC, BREAKAWAY, PRESLIDING, RELAXATION, STRIBECK], needs: &[PRESLIDING] },
+];
 
 pub const FRICTION: ElementKind = ElementKind {
     word: "friction",
@@ -26,16 +51,20 @@ pub const FRICTION: ElementKind = ElementKind {
     example: "(block, ground) along (1, 0) { coefficient = 0.3; normal = 20 [N]; transition = 1e-3 [m/s]; }",
     places: Places::TwoAlong,
     properties: &[
-        Property::word(LAW, LAWS),
+        Property::word(LAW, WORDS),
         Property::varying("coefficient", Dimension::NONE).not_negative(),
         Property::varying(STATIC, Dimension::NONE).not_negative(),
         Property::varying("normal", FORCE),
-        Property::fixed("transition", SPEED).positive(),
+        Property::fixed(TRANSITION, SPEED).positive(),
+        Property::fixed(PRESLIDING, Dimension::LENGTH).positive(),
+        Property::fixed(RELAXATION, Dimension::TIME).not_negative(),
+        Property::fixed(STRIBECK, SPEED).positive(),
         Property::varying("viscous", Dimension::of(1, 0, -1)).not_negative(),
     ],
     said: |given| {
-        let example = "{ coefficient = 0.3; normal = 20 [N]; transition = 1e-3 [m/s]; }";
-        is_said(given, &["coefficient", "normal"], [example; 2])
+        let example = "{ coefficient = 0.3; normal = 20 [N]; … }";
+        let of_laws = ["transition = 1e-3 [m/s];", "presliding = 10 [um];"];
+        is_said(given, &["coefficient", "normal"], [example; 2], of_laws)
     },
     knows: &[],
     moved: |friction| vec![slide(friction)],
@@ -58,20 +87,24 @@ pub const TORSION_FRICTION: ElementKind = ElementKind {
     example: "(arm, ground) { torque = 0.1 [N*m]; transition = 0.1 [rad/s]; }",
     places: Places::Two,
     properties: &[
-        Property::word(LAW, LAWS),
+        Property::word(LAW, WORDS),
         Property::varying("torque", TORQUE).not_negative(),
         Property::varying(BREAKAWAY, TORQUE).not_negative(),
         Property::varying("coefficient", Dimension::NONE).not_negative(),
         Property::varying(STATIC, Dimension::NONE).not_negative(),
         Property::varying("normal", FORCE),
         Property::fixed("radius", Dimension::LENGTH).not_negative(),
-        Property::fixed("transition", RATE).positive(),
+        Property::fixed(TRANSITION, RATE).positive(),
+        Property::angle(PRESLIDING).positive(),
+        Property::fixed(RELAXATION, Dimension::TIME).not_negative(),
+        Property::fixed(STRIBECK, RATE).positive(),
         Property::varying("viscous", Dimension::of(1, 2, -1)).not_negative(),
     ],
     said: |given| {
-        let by_torque = "{ torque = 0.1 [N*m]; transition = 0.1 [rad/s]; }";
-        let by_force = "{ coefficient = 0.1; normal = 20 [N]; radius = 5 [mm]; transition = 0.1 [rad/s]; }";
-        is_said(given, &["coefficient", "normal", "radius"], [by_torque, by_force])
+        let by_torque = "{ torque = 0.1 [N*m]; … }";
+        let by_force = "{ coefficient = 0.1; normal = 20 [N]; radius = 5 [mm]; … }";
+        let of_laws = ["transition = 0.1 [rad/s];", "presliding = 0.1 [deg];"];
+        is_said(given, &["coefficient", "normal", "radius"], [by_torque, by_force], of_laws)
     },
     knows: &[],
     moved: |friction| vec![friction.relative_angle()],
@@ -84,38 +117,57 @@ pub const TORSION_FRICTION: ElementKind = ElementKind {
     },
 };
 
-/// Either all of the dry part is given, `dry` or a torque with the transition,
-/// or the viscous part alone. Of the examples, the second has the properties `dry`.
-fn is_said(given: &Given<'_>, dry: &'static [&'static str], examples: [&str; 2]) -> Result<(), Unsaid> {
+/// Either all of the dry part is given, `dry` or a torque, with what its law needs, or the viscous
+/// part alone. Of the examples, the second has the properties `dry`; both have … where those of a law stand.
+fn is_said(
+    given: &Given<'_>,
+    dry: &'static [&'static str],
+    examples: [&str; 2],
+    [transition, presliding]: [&str; 2],
+) -> Result<(), Unsaid> {
     let of_dry = dry.iter().find(|name| given.has(name));
     if let (true, Some(second)) = (given.has("torque"), of_dry) {
         let keep = "give `torque`, or `coefficient`, `normal` and `radius`";
         return Err(Unsaid::Twice { first: "torque", second, keep });
     }
-    let example = examples[usize::from(of_dry.is_some())];
-    let is_dry = given.has("torque") || of_dry.is_some() || given.has("transition") || given.has(LAW);
+    let of_laws = LAWS.iter().flat_map(|law| law.has).find(|name| given.has(name));
+    let is_dry = of_dry.is_some() || of_laws.is_some() || given.has("torque") || given.has(LAW);
     if !is_dry && given.has("viscous") {
         return Ok(());
     }
-    let sticking = example.replace("transition = 1e-3 [m/s]", "law = coulomb");
-    let sticking = sticking.replace("transition = 0.1 [rad/s]", "law = coulomb");
-    let example = if given.word(LAW) == Some(COULOMB) { &*sticking } else { example };
+    let word = given.word(LAW).unwrap_or(SMOOTH);
+    let Some(law) = LAWS.iter().find(|law| law.word == word) else { return Ok(()) };
+    let of_law = match word {
+        SMOOTH => transition.to_owned(),
+        LUGRE => format!("{presliding} law = {LUGRE};"),
+        _ => format!("law = {word};"),
+    };
+    let example = examples[usize::from(of_dry.is_some())].replace('…', &of_law);
     if !given.has("torque") {
-        given.all(dry, example)?;
+        given.all(dry, &example)?;
     }
-    let sticks = given.word(LAW) == Some(COULOMB);
-    if sticks && given.has("transition") {
-        let keep = "`law = coulomb` sticks and has no transition: leave it out";
-        return Err(Unsaid::Twice { first: LAW, second: "transition", keep });
+    let is_of_others = |name: &&&str| given.has(name) && !law.has.contains(name);
+    if let Some(property) = LAWS.iter().flat_map(|law| law.has).find(is_of_others) {
+        let others = LAWS.iter().filter(|law| law.has.contains(property)).map(|law| law.word).collect();
+        return Err(Unsaid::OfOthers { property, word, others });
     }
-    for (most, of) in [(STATIC, "coefficient"), (BREAKAWAY, "torque")] {
-        if given.has(most) && !(sticks && given.has(of)) {
-            let what = format!("`law = {COULOMB}` and its `{of}`, beside which it has a `{most}`");
-            let example = format!("{{ {of} = …; {most} = …; law = {COULOMB}; }}");
-            return Err(Unsaid::Missing { what, example });
-        }
-    }
-    if sticks { Ok(()) } else { given.all(&["transition"], example) }
+    given.all(law.needs, &example)?;
+    largest_is_said(given, word)
+}
+
+/// The largest friction stands beside that of sliding. Bristles have the speed at which it is lost, too.
+fn largest_is_said(given: &Given<'_>, word: &str) -> Result<(), Unsaid> {
+    let largest =
+        [(STATIC, "coefficient"), (BREAKAWAY, "torque")].into_iter().find(|(most, _)| given.has(most));
+    let missing = match largest {
+        Some((most, of)) if !given.has(of) => Some((of, most)),
+        Some((most, _)) if word == LUGRE && !given.has(STRIBECK) => Some((STRIBECK, most)),
+        None if given.has(STRIBECK) => Some((if given.has("torque") { BREAKAWAY } else { STATIC }, STRIBECK)),
+        _ => None,
+    };
+    let Some((missing, beside)) = missing else { return Ok(()) };
+    let what = format!("`{missing}`, which a `{beside}` needs beside it");
+    Err(Unsaid::Missing { what, example: format!("{{ {missing} = …; {beside} = …; law = {word}; }}") })
 }
 
 /// u·(p₁ − p₂): how far the first place is along the direction on the
@@ -125,7 +177,7 @@ fn slide<'a>(friction: &Element<'a>) -> Scalar<'a> {
     friction.first.offset_along(friction.second, friction.along)
 }
 
-/// −(limit tanh(v/v_t) + c v) for the motion s, or −(limit d + c v) in a direction d, applied.
+/// −(limit tanh(v/v_t) + c v) for the motion s, or by one of the other laws, applied.
 fn resist<'a>(friction: &Element<'a>, s: Scalar<'a>, effects: &mut Effects<'_>) -> Scalar<'a> {
     let limit = dry_limit(friction, "torque", "coefficient");
     let speed = effects.rate(s);
@@ -139,12 +191,34 @@ fn resist<'a>(friction: &Element<'a>, s: Scalar<'a>, effects: &mut Effects<'_>) 
         effects.apply(force, s);
         return force + held;
     }
-    if let (Some(limit), Some(transition)) = (limit, friction.get("transition")) {
+    if let (Some(limit), Some(transition)) = (limit, friction.get(TRANSITION)) {
         force = force - limit * (speed / transition).tanh();
+    }
+    if let (Some(limit), Some(bent)) = (limit, bristles(friction, speed, effects)) {
+        force = force - limit * bent;
     }
     let force = force.shared();
     effects.apply(force, s);
     force
+}
+
+/// (z + τ ż)/z_c: how far bristles are bent, as a share of how far they are while they slide.
+fn bristles<'a>(friction: &Element<'a>, speed: Scalar<'a>, effects: &mut Effects<'_>) -> Option<Scalar<'a>> {
+    let (z, sliding) = (friction.algebra.scalar(friction.state?), friction.get(PRESLIDING)?);
+    let one = friction.algebra.number(1);
+    let ratio = |most, of| Some(friction.get(most)? / friction.get(of)?);
+    let largest = ratio(STATIC, "coefficient").or_else(|| ratio(BREAKAWAY, "torque"));
+    let weakening = match (largest, friction.get(STRIBECK)) {
+        (Some(largest), Some(stribeck)) => {
+            one + (largest.max(one) - one) * (-(speed / stribeck).squared()).exp()
+        }
+        _ => one,
+    };
+    let share = (z / sliding).shared();
+    let rate = (speed - speed.abs() * share / weakening).shared();
+    effects.state_rate = Some(rate.expr());
+    let relaxation = friction.get_or_zero(RELAXATION);
+    Some(share + relaxation * rate / sliding)
 }
 
 /// The largest dry friction: μ |N|, times the radius of a pin; or as given.

@@ -13,7 +13,7 @@ mod properties;
 mod spring;
 
 pub use effects::{Effects, Element, Exerts, Sticks};
-pub use friction::COULOMB;
+pub use friction::{COULOMB, LUGRE, PRESLIDING};
 pub use kind::{ElementKind, Freedom, Known, Places};
 pub use law::{FORCE_BETWEEN, LAW, TORQUE_BETWEEN};
 pub use properties::{Given, Property, Range, Unsaid};

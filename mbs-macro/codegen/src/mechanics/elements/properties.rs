@@ -80,6 +80,8 @@ pub enum Unsaid {
     Missing { what: String, example: String },
     /// Two properties say the same; with what to keep.
     Twice { first: &'static str, second: &'static str, keep: &'static str },
+    /// A property of other laws than the one with this word.
+    OfOthers { property: &'static str, word: &'static str, others: Vec<&'static str> },
 }
 
 impl Given<'_> {
