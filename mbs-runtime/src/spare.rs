@@ -10,6 +10,8 @@ use crate::{Components, Error, Info, Mechanism, Real, State, vectors};
 /// The share of the size of a mechanism by which a redundant constraint may be violated:
 /// as much as in a start that is given.
 const SHARE: f64 = 1e-3;
+/// Roundings of 1 m, or 1 rad, that are no violation: all there is where a mechanism stands at the origin.
+const ROUNDINGS: f64 = 64.0;
 
 /// The distance of the redundant constraint that is violated most from what is allowed, for
 /// a mechanism of this size; negative or NaN if that is exceeded. Costs nothing where no
@@ -49,7 +51,8 @@ fn least<T: Real>(info: &Info, phi: &[T], length: T) -> T {
 #[inline(always)]
 fn allowed<T: Real>(info: &Info, row: usize, length: T) -> T {
     let exponent = info.constraints.get(row).map_or(0, |constraint| constraint.dimension.length);
-    (0..exponent).fold(T::from_f64(SHARE), |size, _| size * length)
+    let share = (0..exponent).fold(T::from_f64(SHARE), |size, _| size * length);
+    share.max(T::from_f64(ROUNDINGS) * T::EPSILON)
 }
 
 /// The error that names the redundant constraint which is violated most, if one is.
@@ -65,8 +68,7 @@ pub(crate) fn check<T: Real>(
     let mut worst: Option<(usize, T)> = None;
     for &row in info.redundant {
         let (violation, allowed) = (vectors::magnitude(phi, row), allowed(info, row, length));
-        // where everything is at the origin both are 0
-        let excess = if violation == T::default() { violation } else { violation / allowed };
+        let excess = violation / allowed;
         let is_kept = excess <= T::from_f64(1.0);
         if !is_kept && worst.is_none_or(|(_, most)| excess > most) {
             worst = Some((row, excess));
