@@ -8,10 +8,14 @@ use super::{Adaptive, AdaptiveScheme, Dynamics, Moment};
 use crate::corners::MOST_SWITCHES;
 use crate::{Real, vectors};
 
-/// A step that passes more knots is not taken.
-const MOST_PASSED: usize = 4;
+/// A step in which a value passes more knots is not taken.
+const MOST_PASSED: f64 = 4.0;
+/// Nor is one with more passages. Many values may pass a knot at once, as six balls do that fall on a floor.
+const MOST_PASSAGES: usize = MOST_SWITCHES;
 /// The share of a step below which what lies between two knots does not count with implicit schemes.
 const NARROW: f64 = 1e-6;
+/// Shares of a step at which it is looked into.
+const WITHIN: [f64; 3] = [0.25, 0.5, 0.75];
 /// Halvings of a step, after which the time of a knot is known.
 const HALVINGS: u32 = 30;
 
@@ -34,14 +38,19 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             _ => 0.0,
         };
         let count: f64 = (0..switches.len()).map(|index| passed(index).abs()).sum();
-        if count < 1.5 {
+        let is_blind = self.is_blind();
+        if count < if is_blind { 0.5 } else { 1.5 } {
             return 0.0;
         }
-        if count > MOST_PASSED as f64 {
+        let most = (0..switches.len()).map(|index| passed(index).abs()).fold(0.0, f64::max);
+        if most > MOST_PASSED || count > MOST_PASSAGES as f64 {
             return self.halved();
         }
-        let mut times = [f64::INFINITY; MOST_PASSED + 1];
+        let mut times = [f64::INFINITY; MOST_PASSAGES + 1];
         let mut places = times.iter_mut();
+        if let (true, Some(place)) = (is_blind, places.next()) {
+            *place = 1.0;
+        }
         for (index, switch) in switches.iter().enumerate() {
             let (count, rises) = ((passed(index).abs() + 0.5) as usize, passed(index) > 0.0);
             if count == 0 {
@@ -65,8 +74,29 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         pairs.map(|(from, to)| self.surprise(from, to)).fold(0.0, f64::max)
     }
 
+    /// True if a value that is on the same piece at both ends of the step that was tried is on another one within it,
+    /// as the distance of two balls that a long step would lead through each other.
+    pub(super) fn dips(&mut self, pieces: [f64; MOST_SWITCHES]) -> bool {
+        let rounded = self.switching.rounded;
+        WITHIN.into_iter().any(|share| {
+            let there = self.within(share);
+            let Self { dynamics, inputs, all, .. } = self;
+            let values = switches_at((&*dynamics, &*inputs), &there, all);
+            let switches = self.dynamics.equations().switching().iter();
+            let mut known = switches.zip(values).zip(pieces).zip(rounded);
+            known
+                .any(|(((switch, value), piece), rounded)| rounded == 0 && switch.knots.piece(value) != piece)
+        })
+    }
+
+    /// True if the estimate does not know the end of a step: what lies between the last knot and the end is looked at, too.
+    fn is_blind(&self) -> bool {
+        let stages = self.attempt.accelerations.as_ref().len();
+        self.estimate.differences.iter().all(|row| row.weights.len() <= stages)
+    }
+
     /// The error after which the next step is half as long.
-    fn halved(&self) -> f64 {
+    pub(super) fn halved(&self) -> f64 {
         Real::pow(2.0, f64::from(self.estimate.power))
     }
 

@@ -26,6 +26,8 @@ const ROUNDINGS: f64 = 64.0;
 const HELD: f64 = 1e-9;
 /// The estimate of the error of a step that passes a switch counts so many times.
 const STRICT: f64 = 100.0;
+/// A step longer than this share of the longest one so far is looked into, where its ends see nothing of a knot.
+const LONG: f64 = 0.25;
 /// Steps that grow again after a rejection are forgotten by this factor a step.
 const FORGET: f64 = 0.9;
 
@@ -148,7 +150,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let mut ends = values.into_iter().zip(known).filter(|(_, (_, rounded))| *rounded == 0);
         let passes = ends.any(|(value, ((switch, piece), _))| switch.knots.piece(value) != piece);
         if !passes {
-            return ratio;
+            let is_long = (self.next.t - self.now.t).to_f64() > LONG * self.effort.longest;
+            return if is_long && self.dips(pieces) { self.halved() } else { ratio };
         }
         let rounded = self.switching.rounded;
         let left_out = self.left_out(pieces, values, |index| rounded.get(index) == Some(&0));
