@@ -67,6 +67,7 @@ const WRITTEN: &[&str] = &[
     include_str!("../../corpus/valid_rod_pendulum.txt"),
     include_str!("../../corpus/valid_stops.txt"),
     include_str!("../../corpus/valid_sticking.txt"),
+    include_str!("../../corpus/valid_contact.txt"),
     include_str!("../../corpus/valid_swing.txt"),
     include_str!("../../corpus/valid_transmissions.txt"),
     include_str!("../../corpus/valid_valve_drive.txt"),

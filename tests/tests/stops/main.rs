@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 mod bristles;
+mod contact;
 mod energy;
 mod rests;
 mod several;

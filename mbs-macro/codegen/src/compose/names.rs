@@ -8,7 +8,8 @@ use proc_macro2::Ident;
 
 use crate::mechanics::joints::POLAR_ANGLE;
 use crate::syntax::{
-    Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Outside, Points, Set, Vector,
+    Attachment, Clause, Condition, Formula, FormulaKind, Item, ItemKind, Load, Outline, Outside, Points, Set,
+    Vector,
 };
 
 /// Rows of joints are called after them: `pin_x`.
@@ -174,9 +175,18 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             frame.iter_mut().for_each(|body| visit(Mention::Name(body)));
             in_load(value, visit);
         }
-        ItemKind::Point { name, body, value } => {
+        ItemKind::Point { name, body, value, outline } => {
             visit(Mention::Point(body, name));
             in_vector(value, visit);
+            match &mut **outline {
+                Outline::Point => {}
+                Outline::Circle { radius } | Outline::Bore { radius } => in_formula(radius, visit),
+                Outline::Line { along } => in_vector(along, visit),
+                Outline::Segment { to, radius } => {
+                    in_vector(to, visit);
+                    radius.iter_mut().for_each(|radius| in_formula(radius, visit));
+                }
+            }
         }
         ItemKind::Joint(joint) => {
             visit(Mention::Name(&mut joint.name));

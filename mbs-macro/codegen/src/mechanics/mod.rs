@@ -10,6 +10,7 @@ pub mod laws;
 mod loads;
 mod motion;
 mod norm;
+mod outline;
 mod particles;
 mod places;
 
@@ -18,5 +19,6 @@ pub use equations::{Equations, Mechanism, derive};
 pub use loads::{Applied, Load, Work};
 pub use motion::Motion;
 pub use norm::norm;
+pub use outline::Outline;
 pub use particles::{Cluster, Particle};
 pub use places::Placed;

@@ -39,7 +39,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Constraint { name, role, .. } => self.declare_row(name, *role == Role::Drive),
             ItemKind::Joint(joint) => self.declare_joint(joint),
             ItemKind::Table(table) => self.declare_table(table),
-            ItemKind::Point { name, body, value } => {
+            ItemKind::Point { name, body, value, .. } => {
                 self.scope.declare_point(name, body, value, &mut self.errors);
             }
             ItemKind::State { name, unit, .. } => self.declare_state(name, unit, &item.doc),

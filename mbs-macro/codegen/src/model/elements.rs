@@ -12,9 +12,9 @@ use super::names::{Local, Place};
 use super::resolver::Resolver;
 use super::{Check, Gap};
 use crate::diagnostics::{Diagnostic, listing, nearest, two_meanings};
-use crate::mechanics::Placed;
 use crate::mechanics::elements::{self, Effects, Freedom, Given, Property, Range, Unsaid};
 use crate::mechanics::joints::Holds;
+use crate::mechanics::{Outline, Placed};
 use crate::syntax::{Attachment, Element, ElementProperty, Formula, FormulaKind, Load};
 
 /// An element with its places found and its properties read.
@@ -25,6 +25,8 @@ struct Resolved {
     values: BTreeMap<&'static str, Vec<Expr>>,
     memories: Option<[Expr; 2]>,
     state: Option<Expr>,
+    outlines: [Outline; 2],
+    words: BTreeMap<&'static str, &'static str>,
 }
 
 impl Resolver<'_> {
@@ -33,7 +35,10 @@ impl Resolver<'_> {
             return;
         }
         let Some(resolved) = self.resolved(element) else { return };
-        if !self.check_motion(element, &resolved) || !self.check_freedom(element) {
+        if !self.check_place(element, &resolved)
+            || !self.check_motion(element, &resolved)
+            || !self.check_freedom(element)
+        {
             return;
         }
         let mut effects = Effects::new(&self.scope.motion);
@@ -84,14 +89,20 @@ impl Resolver<'_> {
         };
         let memories = self.friction_memories(element);
         let state = self.bristle(element);
-        Some(Resolved { first, second, along, values, memories, state })
+        let outlines = [
+            self.outline_at(&element.first)?,
+            self.outline_at(element.second.as_ref().unwrap_or(&element.first))?,
+        ];
+        Some(Resolved { first, second, along, values, memories, state, outlines, words: words_of(element) })
     }
 
     /// The names that properties of an element know beside others.
     fn known(&mut self, element: &Element, first: Placed, second: Placed) -> Vec<Local> {
         let along = [self.scope.arena.one(), self.scope.arena.zero()];
-        let values = BTreeMap::new();
-        let resolved = Resolved { first, second, along, values, memories: None, state: None };
+        let outlines = [Outline::Circle { radius: self.scope.arena.zero() }; 2];
+        let (values, words) = (BTreeMap::new(), BTreeMap::new());
+        let resolved =
+            Resolved { first, second, along, values, memories: None, state: None, outlines, words };
         let effects = Effects::new(&self.scope.motion);
         let algebra = Algebra::new(&mut self.scope.arena);
         let on = resolved.on(&algebra);
@@ -183,7 +194,9 @@ impl Resolver<'_> {
         };
         let values: Option<Vec<Expr>> = formulas.iter().map(|formula| read(formula)).collect();
         let values = values?;
-        if let (true, [value]) = (row.range != Range::All, values.as_slice()) {
+        if let (Range::Share, [value], [formula]) = (row.range, values.as_slice(), formulas.as_slice()) {
+            self.within_one(&format!("the {} of {}", row.name, element.name), *value, formula.span);
+        } else if let (true, [value]) = (row.range != Range::All, values.as_slice()) {
             self.checks.push(Check {
                 value: *value,
                 is_strict: row.range == Range::Positive,
@@ -194,6 +207,15 @@ impl Resolver<'_> {
             });
         }
         Some(values)
+    }
+
+    /// Refuses an element that cannot act where it is.
+    fn check_place(&mut self, element: &Element, resolved: &Resolved) -> bool {
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let Some([message, help]) = (element.kind.refuses)(&resolved.on(&algebra)) else { return true };
+        self.errors
+            .push(Diagnostic::new(element.name.span(), format!("`{}` {message}", element.name)).help(help));
+        false
     }
 
     /// Refuses an element of which nothing moves.
@@ -243,6 +265,8 @@ impl Resolved {
             values: self.values.clone(),
             memories: self.memories,
             state: self.state,
+            outlines: self.outlines.map(|outline| outline.on(algebra)),
+            words: self.words.clone(),
         }
     }
 }

@@ -8,7 +8,7 @@ use proc_macro2::Span;
 
 use crate::mechanics::elements::Exerts;
 use crate::mechanics::joints::{self, Connection, JointKind};
-use crate::mechanics::{self, Inertia, Particle, Work};
+use crate::mechanics::{self, Inertia, Outline, Particle, Work};
 use crate::syntax::{Attachment, Formula, Vector};
 
 /// The name of the body without coordinates, at the origin.
@@ -76,6 +76,8 @@ pub struct Point<'a> {
     pub span: Span,
     pub place: &'a Vector,
     pub local: Local,
+    /// The outline about it, once that is read.
+    pub outline: Option<Outline>,
 }
 
 /// The place of a point on its body.

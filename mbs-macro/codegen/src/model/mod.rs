@@ -21,6 +21,7 @@ mod laws;
 mod loads;
 mod measures;
 mod names;
+mod outlines;
 mod particles;
 mod places;
 mod rates;

@@ -38,7 +38,8 @@ impl<'a> Scope<'a> {
         match frame.points.get(&text) {
             Some(earlier) => errors.push(duplicate(name, earlier.span)),
             None => {
-                frame.points.insert(text, Point { span: name.span(), place, local: Local::Untouched });
+                let point = Point { span: name.span(), place, local: Local::Untouched, outline: None };
+                frame.points.insert(text, point);
             }
         }
     }

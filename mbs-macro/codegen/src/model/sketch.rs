@@ -11,8 +11,8 @@ use super::known::GROUND;
 use super::names::Place;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::Placed;
-use crate::syntax::{Attachment, Clause, Declaration, Item, ItemKind};
+use crate::mechanics::{Outline, Placed};
+use crate::syntax::{self, Attachment, Clause, Declaration, Item, ItemKind};
 
 /// Points of bodies and pairs of them.
 #[derive(Default)]
@@ -103,6 +103,7 @@ impl Resolver<'_> {
         }
         for item in &declaration.items {
             self.sketch_link(item, &known, &mut sketch);
+            self.sketch_outline(item, &known, &mut sketch);
         }
         sketch
     }
@@ -159,6 +160,33 @@ impl Resolver<'_> {
             sketch.points.push(Point { name: text, origin: frame.origin, angle: frame.angle, local });
         }
         positions
+    }
+
+    /// Adds the outline about a point, as a link from it to a second one that shows its size or direction.
+    fn sketch_outline(&mut self, item: &Item, known: &Known, sketch: &mut Sketch) {
+        let ItemKind::Point { name, body, outline, .. } = &item.kind else { return };
+        let kind = match **outline {
+            syntax::Outline::Point => return,
+            syntax::Outline::Circle { .. } => "circle",
+            syntax::Outline::Bore { .. } => "bore",
+            syntax::Outline::Line { .. } => "line",
+            syntax::Outline::Segment { .. } => "segment",
+        };
+        let place = Attachment::of_path(body.clone(), vec![name.clone()]);
+        let Some(&first) = known.get(&(body.to_string(), Some(name.to_string()))) else { return };
+        let Some(outline) = self.outline_at(&place) else { return };
+        let zero = self.scope.arena.zero();
+        let away = match outline {
+            Outline::Circle { radius } | Outline::Bore { radius } => [radius, zero],
+            Outline::Line { along: way } | Outline::Segment { way, .. } => way.components(),
+        };
+        let Point { origin, angle, local, .. } = sketch.points[first];
+        let local = local.unwrap_or([zero; 2]);
+        let arena = &mut self.scope.arena;
+        let local = Some([arena.add(local[0], away[0]), arena.add(local[1], away[1])]);
+        sketch.points.push(Point { name: format!("{body}.{name}.{kind}"), origin, angle, local });
+        let second = sketch.points.len() - 1;
+        sketch.joints.push(Link { name: name.to_string(), kind, first, second, ahead: None });
     }
 
     /// Adds a joint, a spring or a particle; of other statements, nothing.

@@ -14,8 +14,9 @@ use crate::syntax::{self, Formula, FormulaKind, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {
     pub(super) fn resolve_places(&mut self, item: &Item) {
-        if let ItemKind::Point { name, body, .. } = &item.kind {
+        if let ItemKind::Point { name, body, outline, .. } = &item.kind {
             self.scope.local(body, name, &mut self.errors);
+            self.resolve_outline(name, body, outline);
         }
     }
 

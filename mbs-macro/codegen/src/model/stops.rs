@@ -178,7 +178,7 @@ impl Resolver<'_> {
     }
 
     /// Asks that a value is from 0 to 1.
-    fn within_one(&mut self, what: &str, value: Expr, span: proc_macro2::Span) {
+    pub(super) fn within_one(&mut self, what: &str, value: Expr, span: proc_macro2::Span) {
         let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
         for (bound, comparison) in [(zero, Comparison::GreaterOrEqual), (one, Comparison::LessOrEqual)] {
             self.scope.requirements.push(Requirement {

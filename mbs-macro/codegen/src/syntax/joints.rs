@@ -8,7 +8,7 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Error, Ident, Result, Token, parenthesized, token};
 
-use super::words::{equals, helped, name, semicolon};
+use super::words::{helped, name, semicolon};
 use super::{Attachment, Clause, ItemKind, Joint};
 use crate::diagnostics::nearest;
 use crate::mechanics::joints::{ClauseKind, JOINTS, JointKind};
@@ -29,27 +29,6 @@ impl Shape {
         let shapes = JOINTS.iter().flat_map(|&kind| kind.words().map(move |(word, _)| Self { word, kind }));
         shapes.into_iter().find(|shape| shape.word == word)
     }
-}
-
-pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
-    let what = name(input)?;
-    let on = input.span();
-    if what == "on" || !Ident::parse_any(input).is_ok_and(|word| word == "on") {
-        return Err(Error::new(
-            if what == "on" { what.span() } else { on },
-            "a name, `on` and a body or `ground` are expected here, as in `point tip on crank = (l/2, 0);`",
-        ));
-    }
-    let body = name(input)?;
-    equals(input)?;
-    if !input.peek(token::Paren) {
-        return Err(input.error(format!(
-            "a point is given by its place on the body: `point {what} on {body} = (l/2, 0);`"
-        )));
-    }
-    let value = input.parse()?;
-    semicolon(input)?;
-    Ok(ItemKind::Point { name: what, body, value })
 }
 
 pub(super) fn joint(input: ParseStream<'_>, shape: Shape) -> Result<ItemKind> {

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use syn::Result;
 use syn::parse::ParseStream;
 
-use super::{EnergyRole, ItemKind, Role, clocks, items, joints, particles, solver, tables};
+use super::{EnergyRole, ItemKind, Role, clocks, items, outlines, particles, solver, tables};
 use crate::mechanics::elements::ELEMENTS;
 use crate::mechanics::joints::JOINTS;
 
@@ -66,7 +66,11 @@ pub const STATEMENTS: &[Statement] = &[
     ("let", "let s = sin(theta);", "a name for an expression", |input, _| items::let_item(input)),
     ("gravity", "gravity = (0, -9.81) [m/s^2];", "acts on every body that has a mass", items::gravity),
     ("body", "body rod (x, y, theta) { mass = m; inertia = j; }", "a rigid body with its coordinates", |input, _| items::body(input)),
-    ("point", "point tip on rod = (l/2, 0);", "a place on a body", |input, _| joints::point(input)),
+    ("point", "point tip on rod = (l/2, 0);", "a place on a body", |input, _| outlines::point(input)),
+    ("circle", "circle rim on wheel = (0, 0) radius r;", "an outline of a body for contacts, round about a point", |input, _| outlines::circle(input)),
+    ("bore", "bore hole on housing = (0, 0) radius r;", "a round hole of a body for contacts", |input, _| outlines::bore(input)),
+    ("line", "line floor on ground = (0, 0) along (1, 0);", "a straight outline of a body for contacts, its material on the right", |input, _| outlines::line(input)),
+    ("segment", "segment edge on door = (0, 0) to (0.8 [m], 0);", "a straight outline of a body with two ends for contacts, round with a `radius`", |input, _| outlines::segment(input)),
     ("particle", "particle bob at rod.tip { mass = m; }", "a point mass at a place", |input, _| particles::particle(input)),
     ("constraint", "constraint rod: x = l*cos(theta);", "an equation between coordinates", |input, _| items::constraint(input, Role::Constraint)),
     ("drive", "drive motor: theta = omega*t;", "an equation that is enforced from outside", |input, _| items::constraint(input, Role::Drive)),
@@ -115,7 +119,7 @@ pub fn keywords() -> Vec<Keyword> {
 const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["hinge", "pin", "pivot", "bearing", "rotational", "revolute_joint"], "two places that coincide are a `revolute` joint: `revolute pin (crank.tip, rod.base);`"),
     (&["joint"], "a joint begins with its kind: `revolute`, `prismatic`, `fixed`, `point_on_line`, `distance`, `gear`, `belt`, `rack`, `rolling` or `cam`"),
-    (&["contact", "collision", "impact", "limit_stop", "bumper"], "what rolls is a `rolling` joint, what follows a curve a `cam`; a hard end is a `stop`: `stop end: x <= 0.2 [m] { restitution = 0.4; }`, a soft one a force: `force end on x = -k*ramp(x - gap);`, between two points a `strut`"),
+    (&["collision", "impact", "limit_stop", "bumper"], "bodies that touch have a `contact` between their outlines; a hard end is a `stop`: `stop end: x <= 0.2 [m] { restitution = 0.4; }`, a soft one a force: `force end on x = -k*ramp(x - gap);`, between two points a `strut`"),
     (&["damper", "dashpot", "shock_absorber"], "a damper is a spring without stiffness: `spring name (a.p, b.q) { damping = c; }`, or `torsion_spring` between angles"),
     (&["torsional_spring", "rotational_spring", "spiral_spring"], "a spring between angles is a `torsion_spring`"),
     (&["slider", "guide", "rail", "translational", "slot", "groove"], "what slides without turning is a `prismatic` joint, a pin in a slot a `pin_slot`: `prismatic name (block, ground) along (1, 0);`"),

@@ -9,6 +9,7 @@ mod indices;
 mod items;
 mod joints;
 mod keywords;
+mod outlines;
 mod particles;
 mod roles;
 mod solver;
@@ -24,6 +25,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 pub use clocks::{Every, Set};
 pub use items::parse;
 pub use keywords::{Keyword, KeywordKind, keywords};
+pub use outlines::Outline;
 pub use roles::{EnergyRole, Role};
 
 use crate::mechanics::elements::ElementKind;
@@ -110,8 +112,8 @@ pub enum ItemKind {
     Force { name: Ident, is_torque: bool, target: Attachment, frame: Option<Ident>, value: Load },
     /// `potential magnet = k/x;`, `dissipation oil = c*der(x)^2/2;`
     Energy { name: Ident, role: EnergyRole, value: Formula },
-    /// `point tip on crank = (l/2, 0);`
-    Point { name: Ident, body: Ident, value: Vector },
+    /// `point tip on crank = (l/2, 0);`, or with an [`Outline`] about it
+    Point { name: Ident, body: Ident, value: Vector, outline: Box<Outline> },
     /// `revolute pin (crank.tip, rod.base);`
     Joint(Box<Joint>),
     /// `table gas(angle) = [(0, 0), …] cubic outside hold;`, or a `profile`.

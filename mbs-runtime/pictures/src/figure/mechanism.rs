@@ -12,6 +12,8 @@ use crate::picture::{Picture, Shape};
 
 /// How many poses stand faintly behind the start.
 const POSES: usize = 5;
+/// Straight parts of which a circle is drawn.
+const CIRCLE: u32 = 72;
 /// Ground, rails and massless rods.
 const GREY: RGBColor = RGBColor(120, 128, 136);
 const WHITE: RGBColor = RGBColor(255, 255, 255);
@@ -141,6 +143,13 @@ impl<B: DrawingBackend> Pen<'_, B> {
                 let colour = tinted(GREY, if self.is_faint { 0.7 } else { 0.0 });
                 self.line(&between.map(|at| self.at(at)), colour, self.size(3.0))
             }
+            Shape::Circle { at, rim, colour } => {
+                let colour = match colour {
+                    Some(colour) => self.colour(*colour),
+                    None => tinted(GREY, if self.is_faint { 0.7 } else { 0.0 }),
+                };
+                self.line(&self.circle(*at, *rim), colour, self.size(3.0))
+            }
             Shape::Bar { between, colour } => {
                 let (ends, colour) = (between.map(|at| self.at(at)), self.colour(*colour));
                 self.line(&ends, colour, width)?;
@@ -166,6 +175,17 @@ impl<B: DrawingBackend> Pen<'_, B> {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Points on a circle through one point about another, the first one again at the end.
+    fn circle(&self, at: usize, rim: usize) -> Vec<Pixel> {
+        let (centre, rim) = (self.at(at), self.at(rim));
+        let (dx, dy) = (rim.0 - centre.0, rim.1 - centre.1);
+        let point = |part: u32| {
+            let (sine, cosine) = (std::f64::consts::TAU * f64::from(part) / f64::from(CIRCLE)).sin_cos();
+            (centre.0 + cosine * dx - sine * dy, centre.1 + sine * dx + cosine * dy)
+        };
+        (0..=CIRCLE).map(point).collect()
     }
 
     fn block(&self, at: usize, (u, v): Pixel) -> Vec<(i32, i32)> {
@@ -307,6 +327,7 @@ impl<B: DrawingBackend> Pen<'_, B> {
                 Shape::Rail { from, ahead, reach } => {
                     reach.map(|s| self.pixel(self.picture.along(self.instant, *from, *ahead, s))).to_vec()
                 }
+                Shape::Circle { at, rim, .. } => self.circle(*at, *rim),
                 Shape::Ground { at } => {
                     let (x, y) = self.at(*at);
                     let foot = y + self.drawn(22.0);

@@ -58,7 +58,18 @@ impl Picture {
         let ends = rails.flat_map(|(from, ahead, reach)| {
             all().flat_map(move |instant| reach.map(|s| self.along(instant, from, ahead, s)))
         });
-        let around = Extent::around(drawn.chain(ends)).unwrap_or(Extent { low: [0.0; 2], high: [0.0; 2] });
+        let rings = self.shapes.iter().filter_map(|shape| match shape {
+            Shape::Circle { at, rim, .. } => Some((*at, *rim)),
+            _ => None,
+        });
+        let rims = rings.flat_map(|(at, rim)| {
+            all().flat_map(move |instant| {
+                let ([x, y], radius) = (self.place(instant, at), self.apart(instant, at, rim));
+                [[x - radius, y - radius], [x + radius, y + radius]]
+            })
+        });
+        let around =
+            Extent::around(drawn.chain(ends).chain(rims)).unwrap_or(Extent { low: [0.0; 2], high: [0.0; 2] });
         let far = around.low.iter().chain(&around.high).fold(0.0_f64, |far, x| far.max(x.abs()));
         // A mechanism at one place has no size of its own.
         let span = if around.span() > 1e-9 * far { around.span() } else { far.max(1.0) };
@@ -74,6 +85,11 @@ impl Picture {
     pub fn along(&self, instant: usize, from: usize, ahead: usize, distance: f64) -> [f64; 2] {
         let ([x, y], [u, v]) = (self.place(instant, from), self.direction(instant, from, ahead));
         [x + distance * u, y + distance * v]
+    }
+
+    /// How far two points are from each other.
+    pub fn apart(&self, instant: usize, from: usize, to: usize) -> f64 {
+        distance(self.place(instant, from), self.place(instant, to))
     }
 
     /// The unit vector from one point to another; along x where they coincide.

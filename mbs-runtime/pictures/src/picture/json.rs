@@ -12,6 +12,9 @@ pub fn shape(shape: &Shape) -> Value {
         }
         Shape::Ground { at } => json!({ "kind": "ground", "at": at }),
         Shape::Link { between } => json!({ "kind": "link", "points": between }),
+        Shape::Circle { at, rim, colour } => {
+            json!({ "kind": "circle", "at": at, "rim": rim, "colour": colour })
+        }
         Shape::Spring { between } => json!({ "kind": "spring", "points": between }),
         Shape::Bar { between, colour } => json!({ "kind": "bar", "points": between, "colour": colour }),
         Shape::Plate { corners, colour } => json!({ "kind": "plate", "points": corners, "colour": colour }),

@@ -84,6 +84,15 @@ pub enum Shape {
         /// Its ends.
         between: [usize; 2],
     },
+    /// A circle.
+    Circle {
+        /// Its centre.
+        at: usize,
+        /// A point on it.
+        rim: usize,
+        /// The colour of its body; none for the ground.
+        colour: Option<usize>,
+    },
     /// A spring.
     Spring {
         /// Its ends.
@@ -165,6 +174,7 @@ impl Shape {
         match self {
             Self::Rail { .. } => Vec::new(),
             Self::Link { between } | Self::Spring { between } => between.to_vec(),
+            Self::Circle { at, rim, .. } => vec![*at, *rim],
             Self::Bar { between, .. } | Self::Mark { between, .. } => between.to_vec(),
             Self::Plate { corners, .. } => corners.clone(),
             Self::Label { near, .. } => near.clone(),

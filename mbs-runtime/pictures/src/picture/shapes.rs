@@ -43,7 +43,7 @@ fn layer(shape: &Shape) -> u8 {
     match shape {
         Shape::Rail { .. } => 0,
         Shape::Ground { .. } => 1,
-        Shape::Link { .. } => 2,
+        Shape::Link { .. } | Shape::Circle { .. } => 2,
         Shape::Spring { .. } => 3,
         Shape::Block { .. } => 4,
         Shape::Plate { .. } => 5,
@@ -206,6 +206,19 @@ impl<'a> Maker<'a> {
                     self.shapes.push(Shape::Pin { at: first });
                 }
             }
+            ("circle" | "bore", _) => {
+                self.joined.extend(between);
+                self.shapes.push(Shape::Circle { at: first, rim: second, colour: self.colour_of(first) });
+            }
+            ("segment", _) => {
+                self.joined.extend(between);
+                self.shapes.push(Shape::Link { between });
+            }
+            ("line", _) => {
+                self.joined.extend(between);
+                let reach = [-0.6 * self.span, 0.6 * self.span];
+                self.shapes.push(Shape::Rail { from: first, ahead: second, reach });
+            }
             (kind, _) => self.mark(between, kind),
         }
     }
@@ -252,6 +265,8 @@ impl<'a> Maker<'a> {
             "torsion_spring" => {
                 self.shapes.push(Shape::Coil { at: self.hinge(between) });
             }
+            // outlines are drawn where they are
+            "contact" => self.joined.extend(between),
             kind => self.mark(between, kind),
         }
     }

@@ -60,6 +60,14 @@ const drawShape = (() => {
       }
     },
     link: (c, s, v) => line(c, s.points.map(v.at), v.grey, 3 * v.size),
+    circle(c, s, v) {
+      const [x, y] = v.at(s.at), [rx, ry] = v.at(s.rim);
+      c.strokeStyle = s.colour === null ? v.grey : v.colour(s.colour);
+      c.lineWidth = 3 * v.size;
+      c.beginPath();
+      c.arc(x, y, Math.hypot(rx - x, ry - y), 0, 7);
+      c.stroke();
+    },
     spring(c, s, v) {
       const [[ax, ay], [bx, by]] = s.points.map(v.at), dx = bx - ax, dy = by - ay;
       const half = 10 * v.size / (Math.hypot(dx, dy) || 1), turns = 12;

@@ -31,6 +31,7 @@ pub const BUSHING: ElementKind = ElementKind {
     },
     mend: "let it act between points that move apart",
     needs: None,
+    refuses: |_| None,
     forces,
 };
 

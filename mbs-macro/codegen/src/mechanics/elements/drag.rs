@@ -26,6 +26,7 @@ pub const DRAG: ElementKind = ElementKind {
     moved: |drag| drag.first.position.components().into(),
     mend: "let it act on a body that has a position",
     needs: None,
+    refuses: |_| None,
     forces,
 };
 

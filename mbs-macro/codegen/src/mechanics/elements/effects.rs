@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use mbs_symbolic::units::Dimension;
 use mbs_symbolic::{Algebra, Expr, Scalar, Vector};
 
-use crate::mechanics::{Applied, Motion, Placed, Work};
+use crate::mechanics::{Applied, Motion, Outline, Placed, Work};
 
 /// An element with its places found and its properties read.
 pub struct Element<'a> {
@@ -21,6 +21,10 @@ pub struct Element<'a> {
     pub memories: Option<[Expr; 2]>,
     /// Its own state, where it has one.
     pub state: Option<Expr>,
+    /// The outlines about its places.
+    pub outlines: [Outline<Scalar<'a>>; 2],
+    /// The words that it gives.
+    pub words: BTreeMap<&'static str, &'static str>,
 }
 
 impl<'a> Element<'a> {

@@ -74,6 +74,7 @@ pub const FRICTION: ElementKind = ElementKind {
         verb: "slides",
         mend: "friction of a pin is `torsion_friction`",
     }),
+    refuses: |_| None,
     forces: |friction, effects| {
         let force = resist(friction, slide(friction), effects);
         effects.exert(force, FORCE);
@@ -110,6 +111,7 @@ pub const TORSION_FRICTION: ElementKind = ElementKind {
     moved: |friction| vec![friction.relative_angle()],
     mend: "one of its bodies has to turn",
     needs: Some(Freedom { from: Holds::Angle, verb: "turns", mend: "friction of a guide is `friction`" }),
+    refuses: |_| None,
     forces: |friction, effects| {
         let torque = resist(friction, friction.relative_angle(), effects);
         effects.exert(torque, TORQUE);

@@ -27,6 +27,8 @@ pub struct ElementKind {
     pub mend: &'static str,
     /// The motion that joints must leave free between its places.
     pub needs: Option<Freedom>,
+    /// Why it cannot act where it is, and how to mend that.
+    pub refuses: for<'a> fn(&Element<'a>) -> Option<[&'static str; 2]>,
     /// Adds its effects; `None` where a property is missing, which has its error.
     pub forces: for<'a> fn(&Element<'a>, &mut Effects<'_>) -> Option<()>,
 }

@@ -35,6 +35,7 @@ pub const FORCE_BETWEEN: ElementKind = ElementKind {
     moved: |force| (force.first.position - force.second.position).components().into(),
     mend: "let it act between points that move apart",
     needs: None,
+    refuses: |_| None,
     forces: |force, effects| {
         let distance = force.first.distance_to(force.second);
         effects.gap = Some((distance.expr(), force.algebra.number(0).expr()));
@@ -63,6 +64,7 @@ pub const TORQUE_BETWEEN: ElementKind = ElementKind {
     moved: |torque| vec![torque.relative_angle()],
     mend: "one of its bodies has to turn",
     needs: None,
+    refuses: |_| None,
     forces: |element, effects| {
         let (torque, angle) = (element.get(LAW)?.shared(), element.relative_angle());
         effects.apply(torque, angle);

@@ -2,6 +2,7 @@
 //! that come of them. A new element is such a file and a row of [`ELEMENTS`].
 
 mod bushing;
+mod contact;
 mod drag;
 mod effects;
 mod friction;
@@ -29,4 +30,5 @@ pub const ELEMENTS: &[&ElementKind] = &[
     &friction::FRICTION,
     &friction::TORSION_FRICTION,
     &drag::DRAG,
+    &contact::CONTACT,
 ];

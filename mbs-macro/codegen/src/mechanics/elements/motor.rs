@@ -24,6 +24,7 @@ pub const MOTOR: ElementKind = ElementKind {
     moved: |motor| vec![motor.relative_angle()],
     mend: "one of its bodies has to turn",
     needs: None,
+    refuses: |_| None,
     forces,
 };
 

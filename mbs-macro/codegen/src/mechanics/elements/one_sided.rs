@@ -39,6 +39,7 @@ pub const STRUT: ElementKind = ElementKind {
     moved: |strut| (strut.first.position - strut.second.position).components().into(),
     mend: "let it act between points that move apart",
     needs: None,
+    refuses: |_| None,
     forces: |strut, effects| {
         let push = act(strut, effects, |distance, length| length - distance)?;
         effects.exert(-push, FORCE);

@@ -29,6 +29,8 @@ pub enum Range {
     All,
     NotNegative,
     Positive,
+    /// From 0 to 1.
+    Share,
 }
 
 impl Property {
@@ -55,6 +57,10 @@ impl Property {
 
     pub const fn not_negative(self) -> Self {
         Self { range: Range::NotNegative, ..self }
+    }
+
+    pub const fn share(self) -> Self {
+        Self { range: Range::Share, ..self }
     }
 
     pub const fn positive(self) -> Self {

@@ -37,6 +37,7 @@ pub const SPRING: ElementKind = ElementKind {
     moved: |spring| between(spring).components().into(),
     mend: "let it act between points that move apart",
     needs: None,
+    refuses: |_| None,
     forces: |spring, effects| {
         let free = spring.get_or_zero("length");
         if free.is_zero() && spring.get_or_zero("preload").is_zero() {
@@ -67,6 +68,7 @@ pub const TORSION_SPRING: ElementKind = ElementKind {
     moved: |spring| vec![spring.relative_angle()],
     mend: "one of its bodies has to turn",
     needs: None,
+    refuses: |_| None,
     forces: |spring, effects| {
         let elongation = spring.relative_angle() - spring.get_or_zero("angle");
         let tension = pull(spring, elongation, effects);

@@ -91,6 +91,10 @@ fn drawing(sketch: &Sketch, picture: &Picture, instant: usize) -> String {
                     .map(|reach| picture.along(instant, *from, *ahead, reach).map(|metres| 1e3 * metres));
                 dxf.polyline("rails", &ends, false);
             }
+            Shape::Circle { at: centre, rim, colour } => {
+                let layer = colour.map_or_else(|| "ground".to_owned(), &layer_of);
+                dxf.circle(&layer, at(*centre), 1e3 * picture.apart(instant, *centre, *rim));
+            }
             Shape::Ground { at: tip } => dxf.point("ground", at(*tip)),
             Shape::Link { between } | Shape::Spring { between } => {
                 dxf.polyline("rods", &between.map(at), false);

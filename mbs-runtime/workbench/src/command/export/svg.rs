@@ -85,6 +85,11 @@ impl<'a> Pen<'a> {
                 let rail = |instant| reach.map(|reach| end(instant, reach)).to_vec();
                 self.line("polyline", "stroke-width=\"1\"", rail)
             }
+            Shape::Circle { at, rim, colour: of } => {
+                let stroke = of.map_or_else(|| "#788088".to_owned(), colour);
+                let radius = self.scale * self.picture.apart(0, *at, *rim);
+                self.disk(*at, radius, &format!("fill=\"none\" stroke=\"{stroke}\" stroke-width=\"2\""))
+            }
             Shape::Ground { at } => {
                 let [x, y] = self.pixel(0, *at);
                 let (half, down) = (10.0 * weight, 16.0 * weight);

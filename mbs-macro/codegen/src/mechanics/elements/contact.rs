@@ -1,0 +1,253 @@
+//! Compliant contact of two outlines, of which one is a circle or a point.
+//!
+//! With the distance g of the outlines and the normal n from the second to the first, the penetration is δ = −g. Where it is
+//! positive, the first body is pushed along n by N, which is not less than 0:
+//!
+//! * `stiffness` k: N = k δ + c δ̇, with a `damping` c.
+//! * `modulus` E*: N = K δ^(3/2), K = ⁴⁄₃ E* √R, Hertz's law of spheres; 1/R is the sum of the curvatures.
+//! * With a `restitution` e at a `speed` v₀ both are multiplied by 1 + χ δ̇/v₀. By Hunt and Crossley (1975) χ is 3(1 − e)/2, by
+//!   Lankarani and Nikravesh (1990) 3(1 − e²)/4, by Flores, Machado, Silva and Martins (2011) 8(1 − e)/(5e).
+//!
+//! Friction is −μ N tanh(v/v_t), v the speed of sliding at the point of contact, in the middle of
+//! the penetration.
+
+use mbs_symbolic::units::Dimension;
+use mbs_symbolic::{Number, Scalar, Vector};
+
+use super::properties::{FORCE, Given, Property, SPEED, Unsaid};
+use super::{Effects, Element, ElementKind, Places};
+use crate::mechanics::{Outline, Placed};
+
+const LAW: &str = "law";
+const HUNT_CROSSLEY: &str = "hunt_crossley";
+const LANKARANI_NIKRAVESH: &str = "lankarani_nikravesh";
+const FLORES: &str = "flores";
+const WORDS: &[&str] = &[HUNT_CROSSLEY, LANKARANI_NIKRAVESH, FLORES];
+const EXAMPLE: &str =
+    "{ stiffness = 1 [MN/m]; restitution = 0.6; speed = 1 [m/s]; coefficient = 0.3; transition = 1 [mm/s]; }";
+/// Below this length a distance has no direction.
+const NOWHERE: f64 = 1e-15;
+
+pub const CONTACT: ElementKind = ElementKind {
+    word: "contact",
+    meaning: "pushes outlines apart where they touch, and rubs",
+    example: "(wheel.rim, ground.floor) { stiffness = 1 [MN/m]; restitution = 0.6; speed = 1 [m/s]; }",
+    places: Places::Two,
+    properties: &[
+        Property::word(LAW, WORDS),
+        Property::fixed("stiffness", Dimension::of(1, 0, -2)).positive(),
+        Property::fixed("modulus", Dimension::of(1, -1, -2)).positive(),
+        Property::fixed("damping", Dimension::of(1, 0, -1)).not_negative(),
+        Property::fixed("restitution", Dimension::NONE).share(),
+        Property::fixed("speed", SPEED).positive(),
+        Property::varying("coefficient", Dimension::NONE).not_negative(),
+        Property::fixed("transition", SPEED).positive(),
+    ],
+    said,
+    knows: &[],
+    moved: |contact| (contact.first.position - contact.second.position).components().into(),
+    mend: "let it act between bodies that move against each other",
+    needs: None,
+    refuses,
+    forces: act,
+};
+
+fn said(given: &Given<'_>) -> Result<(), Unsaid> {
+    for (first, second, keep) in [
+        ("stiffness", "modulus", "keep one of them: a force of the penetration, or of its power 3/2"),
+        ("damping", "restitution", "keep one of them: a force of the speed, or one of speed and penetration"),
+    ] {
+        if given.has(first) && given.has(second) {
+            return Err(Unsaid::Twice { first, second, keep });
+        }
+    }
+    if !given.has("modulus") && !given.has("stiffness") {
+        let what = "`stiffness` or `modulus`".to_owned();
+        return Err(Unsaid::Missing { what, example: EXAMPLE.to_owned() });
+    }
+    let pairs = [("restitution", "speed"), ("speed", "restitution"), (LAW, "restitution")];
+    for (of, needed) in
+        pairs.into_iter().chain([("coefficient", "transition"), ("transition", "coefficient")])
+    {
+        if given.has(of) {
+            given.all(&[needed], EXAMPLE)?;
+        }
+    }
+    Ok(())
+}
+
+fn refuses(contact: &Element<'_>) -> Option<[&'static str; 2]> {
+    let Some(pair) = Pair::of(contact) else {
+        return Some([
+            "is between outlines that no contact knows",
+            "one of them is a point or a `circle`, the other one a `circle`, a `bore`, a `line` or a `segment`",
+        ]);
+    };
+    let is_round = match pair.outline {
+        Outline::Circle { radius } | Outline::Segment { radius, .. } => {
+            !(pair.radius.is_zero() && radius.is_zero())
+        }
+        Outline::Bore { .. } | Outline::Line { .. } => true,
+    };
+    if !is_round {
+        return Some([
+            "is between outlines without thickness, which touch nowhere",
+            "give one of them a radius: `circle rim on wheel = (0, 0) radius r;`",
+        ]);
+    }
+    let is_dead = contact.get("restitution").is_some_and(Scalar::is_zero);
+    if is_dead && contact.words.get(LAW) == Some(&FLORES) {
+        return Some([
+            "divides by its `restitution`, which is 0",
+            "take `law = hunt_crossley;`, or a `damping`",
+        ]);
+    }
+    let is_pointed =
+        pair.radius.is_zero() || matches!(pair.outline, Outline::Circle { radius } if radius.is_zero());
+    (contact.get("modulus").is_some() && is_pointed).then_some([
+        "has a `modulus` and a point, which has no curvature",
+        "give it a radius, or the contact a `stiffness`",
+    ])
+}
+
+/// A circle and what it touches.
+struct Pair<'a> {
+    circle: Placed<Scalar<'a>>,
+    radius: Scalar<'a>,
+    other: Placed<Scalar<'a>>,
+    outline: Outline<Scalar<'a>>,
+}
+
+/// Where outlines are nearest.
+struct Nearest<'a> {
+    /// n, from the other outline to the circle.
+    normal: Vector<Scalar<'a>>,
+    distance: Scalar<'a>,
+    /// 1/R, the sum of the curvatures.
+    curvature: Scalar<'a>,
+    /// From the place of the other outline to the centre of the circle, along n and along t, which is n turned to the right.
+    arm: [Scalar<'a>; 2],
+}
+
+impl<'a> Pair<'a> {
+    fn of(contact: &Element<'a>) -> Option<Self> {
+        let (first, second) = (contact.first, contact.second);
+        match contact.outlines {
+            [Outline::Circle { radius }, outline] => {
+                Some(Self { circle: first, radius, other: second, outline })
+            }
+            [outline, Outline::Circle { radius }] => {
+                Some(Self { circle: second, radius, other: first, outline })
+            }
+            _ => None,
+        }
+    }
+
+    fn nearest(&self) -> Nearest<'a> {
+        let d = self.circle.position - self.other.position;
+        let [zero, one] = [0, 1].map(|value| self.radius.algebra().number(value));
+        match self.outline {
+            Outline::Circle { radius } => {
+                let (normal, length) = away(d);
+                let distance = length - self.radius - radius;
+                let curvature = one / self.radius + one / radius;
+                Nearest { normal, distance, curvature, arm: [length, zero] }
+            }
+            Outline::Bore { radius } => {
+                let (direction, length) = away(d);
+                let distance = radius - self.radius - length;
+                let curvature = one / self.radius - one / radius;
+                Nearest { normal: -direction, distance, curvature, arm: [-length, zero] }
+            }
+            Outline::Line { along } => {
+                let along = (along.rotated(self.other.angle) / along.norm()).map(Scalar::shared);
+                let normal = along.perpendicular();
+                let height = normal.dot(d).shared();
+                let (distance, arm) = (height - self.radius, [height, along.dot(d)]);
+                Nearest { normal, distance, curvature: one / self.radius, arm }
+            }
+            Outline::Segment { way, radius } => {
+                let length = way.norm();
+                let along = (way.rotated(self.other.angle) / length).map(Scalar::shared);
+                let foot = along.dot(d).max(zero).min(length).shared();
+                let (normal, height) = away(d - foot * along);
+                let arm = [normal.dot(d), -normal.perpendicular().dot(d)];
+                let distance = height - self.radius - radius;
+                Nearest { normal, distance, curvature: one / self.radius, arm }
+            }
+        }
+    }
+}
+
+/// The direction of a difference and its length; none where that is nothing.
+fn away<'a>(d: Vector<Scalar<'a>>) -> (Vector<Scalar<'a>>, Scalar<'a>) {
+    let nowhere = d.x.algebra().number(Number::float(NOWHERE * NOWHERE));
+    let length = d.dot(d).max(nowhere).sqrt().shared();
+    ((d / length).map(Scalar::shared), length)
+}
+
+fn act<'a>(contact: &Element<'a>, effects: &mut Effects<'_>) -> Option<()> {
+    let pair = Pair::of(contact)?;
+    let Nearest { normal, distance, curvature, arm: [ahead, aside] } = pair.nearest();
+    let Pair { circle, radius, other, .. } = pair;
+    let (d, tangent) = (circle.position - other.position, -normal.perpendicular());
+    let rates = d.map(|component| effects.rate(component));
+    let [spin, other_spin] = [circle.angle, other.angle].map(|angle| effects.rate(angle));
+    let parting = normal.dot(rates) - aside * other_spin;
+    let depth = (-distance).shared();
+    let push = pushed(contact, depth, -parting, curvature, effects)?.shared();
+    effects.exert(push, FORCE);
+    let (mut force, mut moments) = (push * normal, [contact.algebra.number(0), -aside * push]);
+    if let (Some(coefficient), Some(transition)) = (contact.get("coefficient"), contact.get("transition")) {
+        // the point of contact is in the middle of the penetration
+        let reach = (radius - depth / 2).shared();
+        let ahead = ahead - reach;
+        let slip = tangent.dot(rates) + reach * spin + ahead * other_spin;
+        let rub = (-(coefficient * push * (slip / transition).tanh())).shared();
+        force = force + rub * tangent;
+        moments = [reach * rub, moments[1] + ahead * rub];
+    }
+    effects.apply(force.x, d.x);
+    effects.apply(force.y, d.y);
+    effects.apply(moments[0], circle.angle);
+    effects.apply(moments[1], other.angle);
+    Some(())
+}
+
+/// N ≥ 0 of a penetration and its rate; what is elastic in it is stored.
+fn pushed<'a>(
+    contact: &Element<'a>,
+    depth: Scalar<'a>,
+    rate: Scalar<'a>,
+    curvature: Scalar<'a>,
+    effects: &mut Effects<'_>,
+) -> Option<Scalar<'a>> {
+    let number = |value: i64| contact.algebra.number(value);
+    let zero = number(0);
+    let touches = depth.greater(zero).shared();
+    let (press, energy) = match (contact.get("stiffness"), contact.get("modulus")) {
+        (Some(stiffness), _) => (stiffness * depth, stiffness * depth.squared() / 2),
+        (_, Some(modulus)) => {
+            // the root of what is gated
+            let root = (zero.max(depth) / curvature).sqrt();
+            let press = (number(4) * modulus / 3 * root * depth).shared();
+            (press, number(2) * press * depth / 5)
+        }
+        _ => return None,
+    };
+    effects.energies.push(touches.gate(energy).expr());
+    let push = match (contact.get("restitution"), contact.get("speed"), contact.get("damping")) {
+        (Some(e), Some(speed), _) => {
+            let lost = number(1) - e;
+            let factor = match contact.words.get(LAW).copied() {
+                Some(LANKARANI_NIKRAVESH) => number(3) * (number(1) - e.squared()) / 4,
+                Some(FLORES) => number(8) * lost / (number(5) * e),
+                _ => number(3) * lost / 2,
+            };
+            press * (number(1) + factor / speed * rate)
+        }
+        (_, _, Some(damping)) => press + damping * rate,
+        _ => press,
+    };
+    Some(touches.gate(zero.max(push)))
+}

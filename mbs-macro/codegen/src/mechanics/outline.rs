@@ -1,0 +1,31 @@
+//! Outlines of bodies, where they touch each other.
+
+use mbs_symbolic::{Algebra, Expr, Scalar, Vector};
+
+/// An outline about a place of a body, in the frame of the body.
+#[derive(Clone, Copy)]
+pub enum Outline<T = Expr> {
+    /// A full circle; a point where the radius is 0.
+    Circle { radius: T },
+    /// A round hole.
+    Bore { radius: T },
+    /// A straight line through the place, the material on the right of its direction.
+    Line { along: Vector<T> },
+    /// From the place to one that is so far away, with a round edge.
+    Segment { way: Vector<T>, radius: T },
+}
+
+impl Outline {
+    /// The same, to compute with.
+    pub fn on<'a>(&self, algebra: &'a Algebra<'a>) -> Outline<Scalar<'a>> {
+        let scalar = |x: Expr| algebra.scalar(x);
+        match *self {
+            Self::Circle { radius } => Outline::Circle { radius: scalar(radius) },
+            Self::Bore { radius } => Outline::Bore { radius: scalar(radius) },
+            Self::Line { along } => Outline::Line { along: along.map(scalar) },
+            Self::Segment { way, radius } => {
+                Outline::Segment { way: way.map(scalar), radius: scalar(radius) }
+            }
+        }
+    }
+}
