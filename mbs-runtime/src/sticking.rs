@@ -9,17 +9,22 @@
 //! ```
 //!
 //! All that do not move stick at first. The one that is farthest beyond its L₀ slides, until the others hold. One that would
-//! then move against its direction sticks after all. With the forces at stops that are rested on this is one problem of few rows.
+//! then move against its direction sticks after all. One that has no hold, as on a slider at its dead centre, goes on in the
+//! direction of s̈. With the forces at stops that are rested on this is one problem of few rows.
 
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
 use crate::equations::{At, Equations};
 use crate::pressing::{held, pressed};
-use crate::{Error, Info, Real};
+use crate::{Error, Info, Real, vectors};
 
 /// Friction breaks loose within this share of its largest force, where a run has found that it does.
 const BREAKS: f64 = 1e-6;
 /// A force is within its limit up to rounding by this share.
 const ROUNDING: f64 = 1e-12;
+/// Friction has no hold where it leaves more than this share of an acceleration.
+const LEFT: f64 = 1e-6;
+/// Accelerations below this share of the largest one are none.
+const NONE: f64 = 1e-9;
 /// So many changes of modes are tried per friction.
 const TRIES: usize = 8;
 
@@ -128,6 +133,10 @@ struct Holding<T> {
     forces: Each<T>,
     /// s̈, and g̈
     accelerations: Each<T>,
+    /// The same without the forces.
+    free: Each<T>,
+    /// Accelerations up to this size are none.
+    none: f64,
     /// W of each row with itself.
     own: Each<T>,
     limits: Limits<T>,
@@ -157,7 +166,14 @@ impl<T: Real> Holding<T> {
         let sum = |row: usize| Some(*free.get(row)? + *changes.get(row)?);
         let accelerations = core::array::from_fn(|row| sum(row).unwrap_or_default());
         let limits = Limits::of(equations, at, inputs, [a, lambda]);
-        Some(Self { held, forces, accelerations, own, limits })
+        let none = NONE * vectors::largest(a).1.to_f64();
+        Some(Self { held, forces, accelerations, free, none, own, limits })
+    }
+
+    /// True of friction that holds nothing, whatever its force: on what a drive moves, and at dead centres.
+    fn has_no_hold(&self, row: usize) -> bool {
+        let left = number(&self.accelerations, row).abs();
+        left > LEFT * number(&self.free, row).abs() && left > self.none
     }
 
     /// True if friction that slides from rest would move against its direction.
@@ -190,6 +206,14 @@ pub(crate) fn decide<T: Real>(
         let most = |row: usize| share(row) * found.limits.sticking(row).to_f64();
         if let Some(row) = loose(sticking, &found.forces, most) {
             let direction = if number(&found.forces, row) > 0.0 { -1.0 } else { 1.0 };
+            set(info, inputs, row, (direction, T::ZERO));
+            sticking &= !bit(row);
+            continue;
+        }
+        if let Some((row, _)) =
+            frictions(info).find(|(row, _)| has(sticking, *row) && found.has_no_hold(*row))
+        {
+            let direction = if number(&found.accelerations, row) > 0.0 { 1.0 } else { -1.0 };
             set(info, inputs, row, (direction, T::ZERO));
             sticking &= !bit(row);
             continue;

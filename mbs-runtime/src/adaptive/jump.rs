@@ -261,10 +261,11 @@ impl<D: Dynamics> Jump<'_, D> {
         let halted = those(MOST_CONTACTS, |row| has(friction & found & !held, row) && is_halted(row));
         let [not_moving, leaving] = self.slide(halted, &rates, &still);
         self.clear(resting, &gaps.gap, true);
-        let rates = self.gaps().rate;
-        self.clear(resting | not_moving, &rates, false);
         let breaking = found & held & !stuck | leaving;
         let Held { held, .. } = self.decide(Undecided { resting, still: not_moving, breaking })?;
+        // what friction does not hold keeps its velocity: at a dead centre it would be that of the whole mechanism
+        let rates = self.gaps().rate;
+        self.clear(resting | held & not_moving, &rates, false);
         stopping.kept = resting & stuck & !held;
         let held = held | resting & stuck;
         let closed = closed | not_moving;

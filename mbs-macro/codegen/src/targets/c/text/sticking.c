@@ -37,6 +37,25 @@ static void NAME_change_rates(const real *contacts, const real *impulses, real *
     }
 }
 
+/* The first friction of a set that holds nothing, whatever its force: on what a drive moves, and at dead centres. */
+static int NAME_without_hold(
+    const int *set, const real *b, const double *left, struct NAME_reactions *reactions)
+{
+    const real *const a = NAME_places(&reactions->acceleration);
+    double largest = 0;
+    for (int at = 0; at < CAPS_COORDINATES; at++) {
+        const double size = fabs((double)a[at]);
+        largest = size > largest ? size : largest;
+    }
+    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        const double size = fabs(left[row]);
+        if (set[row] && size > 1e-6 * fabs((double)b[row]) && size > 1e-9 * largest) {
+            return row;
+        }
+    }
+    return -1;
+}
+
 /* Of the frictions of a set the one whose force is most beyond its limit, of which there are two per friction; -1 where none
    is. */
 static int NAME_loose(const int *set, const real *forces, const real *limits)
@@ -96,15 +115,24 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
             sticking[loose] = 0;
             continue;
         }
-        for (int row = CAPS_ROWS - 1; row >= CAPS_STOPS; row--) {
-            const double own = (double)NAME_mobility(contacts, row, row);
-            const double least = 2.0 * 1e-6 * own * (double)limits[2 * (row - CAPS_STOPS) + 1];
+        double left[CAPS_ROWS] = {0};
+        for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
             real change = 0;
             for (int by = 0; by < CAPS_ROWS; by++) {
                 change = change + NAME_mobility(contacts, row, by) * forces[by];
             }
-            if (still[row] && !sticking[row] && least > 0
-                && NAME_direction(run, row) * ((double)b[row] + (double)change) < -least) {
+            left[row] = (double)(b[row] + change);
+        }
+        const int slipping = NAME_without_hold(sticking, b, left, &reactions);
+        if (slipping >= 0) {
+            NAME_set_friction(run, slipping, left[slipping] > 0 ? 1.0 : -1.0, 0);
+            sticking[slipping] = 0;
+            continue;
+        }
+        for (int row = CAPS_ROWS - 1; row >= CAPS_STOPS; row--) {
+            const double own = (double)NAME_mobility(contacts, row, row);
+            const double least = 2.0 * 1e-6 * own * (double)limits[2 * (row - CAPS_STOPS) + 1];
+            if (still[row] && !sticking[row] && least > 0 && NAME_direction(run, row) * left[row] < -least) {
                 turned = row;
             }
         }

@@ -56,6 +56,12 @@ class Sticking extends Start {
         continue;
       }
       const changes = this.changed(this.each(() => 0), forces);
+      const slipping = this.withoutHold(sticking, b, changes, m.reactions.subarray(0, n));
+      if (slipping !== undefined) {
+        this.setFriction(slipping, b[slipping] + changes[slipping] > 0 ? 1 : -1, 0);
+        sticking[slipping] = false;
+        continue;
+      }
       const turned = rows.find((row) => {
         const least = 2 * 1e-6 * this.mobility(row, row) * most[row];
         return still[row] && !sticking[row] && least > 0 && this.direction(row) * (b[row] + changes[row]) < -least;
@@ -67,6 +73,15 @@ class Sticking extends Start {
       sticking[turned] = true;
     }
     return this.failAtStop("JAMMED", still.indexOf(true));
+  }
+
+  // The first friction of a set that holds nothing, whatever its force: on what a drive moves, and at dead centres.
+  withoutHold(set, b, changes, accelerations) {
+    const largest = accelerations.reduce((most, a) => Math.max(most, Math.abs(a)), 0);
+    return this.frictions().find((row) => {
+      const left = Math.abs(b[row] + changes[row]);
+      return set[row] && left > 1e-6 * Math.abs(b[row]) && left > 1e-9 * largest;
+    });
   }
 
   // Sets the memories of the forces with which frictions stick.
