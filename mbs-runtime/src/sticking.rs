@@ -21,7 +21,7 @@ use crate::{Error, Info, Real, vectors};
 const BREAKS: f64 = 1e-6;
 /// A force is within its limit up to rounding by this share.
 const ROUNDING: f64 = 1e-12;
-/// Friction has no hold where it leaves more than this share of an acceleration.
+/// Friction that leaves more than this share of the acceleration of its slip has no hold.
 const LEFT: f64 = 1e-6;
 /// Accelerations below this share of the largest one are none.
 const NONE: f64 = 1e-9;
@@ -170,7 +170,7 @@ impl<T: Real> Holding<T> {
         Some(Self { held, forces, accelerations, free, none, own, limits })
     }
 
-    /// True of friction that holds nothing, whatever its force: on what a drive moves, and at dead centres.
+    /// True if no force of this friction stops its slip. So it is where a drive moves the body, and at dead centres.
     fn has_no_hold(&self, row: usize) -> bool {
         let left = number(&self.accelerations, row).abs();
         left > LEFT * number(&self.free, row).abs() && left > self.none

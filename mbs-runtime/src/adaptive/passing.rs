@@ -10,7 +10,7 @@ use crate::{Real, vectors};
 
 /// A step in which a value passes more knots is not taken.
 const MOST_PASSED: f64 = 4.0;
-/// Nor is one with more passages. Many values may pass a knot at once, as six balls do that fall on a floor.
+/// A step with more passages in all is not taken. Many values may pass at once, as those of six balls that fall on a floor.
 const MOST_PASSAGES: usize = MOST_SWITCHES;
 /// The share of a step below which what lies between two knots does not count with implicit schemes.
 const NARROW: f64 = 1e-6;
@@ -74,8 +74,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         pairs.map(|(from, to)| self.surprise(from, to)).fold(0.0, f64::max)
     }
 
-    /// True if a value that is on the same piece at both ends of the step that was tried is on another one within it,
-    /// as the distance of two balls that a long step would lead through each other.
+    /// True if a value leaves its piece within the step that was tried and is back at its end. The distance of two balls
+    /// does, if a step leads one through the other.
     pub(super) fn dips(&mut self, pieces: [f64; MOST_SWITCHES]) -> bool {
         let rounded = self.switching.rounded;
         WITHIN.into_iter().any(|share| {
@@ -89,7 +89,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         })
     }
 
-    /// True if the estimate does not know the end of a step: what lies between the last knot and the end is looked at, too.
+    /// True if the estimate does not know the end of a step. Then the piece behind the last knot is looked at, too.
     fn is_blind(&self) -> bool {
         let stages = self.attempt.accelerations.as_ref().len();
         self.estimate.differences.iter().all(|row| row.weights.len() <= stages)

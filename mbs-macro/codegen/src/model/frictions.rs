@@ -81,7 +81,7 @@ impl Resolver<'_> {
         Some(self.scope.arena.variable(self.coordinates.get(state)?.velocity))
     }
 
-    /// Enters how fast bristles bend.
+    /// Enters the rate at which bristles bend.
     pub(super) fn push_bristle_rate(&mut self, name: &Ident, rate: Expr) {
         let name = bristle_of(name);
         let Some(state) = self.state_named(&name) else { return };

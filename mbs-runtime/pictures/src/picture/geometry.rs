@@ -87,7 +87,7 @@ impl Picture {
         [x + distance * u, y + distance * v]
     }
 
-    /// How far two points are from each other.
+    /// The distance of two points.
     pub fn apart(&self, instant: usize, from: usize, to: usize) -> f64 {
         distance(self.place(instant, from), self.place(instant, to))
     }

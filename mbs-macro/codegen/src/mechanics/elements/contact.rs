@@ -123,8 +123,6 @@ struct Nearest<'a> {
     /// n, from the other outline to the circle.
     normal: Vector<Scalar<'a>>,
     distance: Scalar<'a>,
-    /// 1/R, the sum of the curvatures.
-    curvature: Scalar<'a>,
     /// From the place of the other outline to the centre of the circle, along n and along t, which is n turned to the right.
     arm: [Scalar<'a>; 2],
 }
@@ -145,26 +143,22 @@ impl<'a> Pair<'a> {
 
     fn nearest(&self) -> Nearest<'a> {
         let d = self.circle.position - self.other.position;
-        let [zero, one] = [0, 1].map(|value| self.radius.algebra().number(value));
+        let zero = self.radius.algebra().number(0);
         match self.outline {
             Outline::Circle { radius } => {
                 let (normal, length) = away(d);
-                let distance = length - self.radius - radius;
-                let curvature = one / self.radius + one / radius;
-                Nearest { normal, distance, curvature, arm: [length, zero] }
+                Nearest { normal, distance: length - self.radius - radius, arm: [length, zero] }
             }
             Outline::Bore { radius } => {
                 let (direction, length) = away(d);
                 let distance = radius - self.radius - length;
-                let curvature = one / self.radius - one / radius;
-                Nearest { normal: -direction, distance, curvature, arm: [-length, zero] }
+                Nearest { normal: -direction, distance, arm: [-length, zero] }
             }
             Outline::Line { along } => {
                 let along = (along.rotated(self.other.angle) / along.norm()).map(Scalar::shared);
                 let normal = along.perpendicular();
                 let height = normal.dot(d).shared();
-                let (distance, arm) = (height - self.radius, [height, along.dot(d)]);
-                Nearest { normal, distance, curvature: one / self.radius, arm }
+                Nearest { normal, distance: height - self.radius, arm: [height, along.dot(d)] }
             }
             Outline::Segment { way, radius } => {
                 let length = way.norm();
@@ -172,14 +166,23 @@ impl<'a> Pair<'a> {
                 let foot = along.dot(d).max(zero).min(length).shared();
                 let (normal, height) = away(d - foot * along);
                 let arm = [normal.dot(d), -normal.perpendicular().dot(d)];
-                let distance = height - self.radius - radius;
-                Nearest { normal, distance, curvature: one / self.radius, arm }
+                Nearest { normal, distance: height - self.radius - radius, arm }
             }
+        }
+    }
+
+    /// 1/R, the sum of the curvatures; a point has none.
+    fn curvature(&self) -> Scalar<'a> {
+        let of = |radius: Scalar<'a>| self.radius.algebra().number(1) / radius;
+        match self.outline {
+            Outline::Circle { radius } => of(self.radius) + of(radius),
+            Outline::Bore { radius } => of(self.radius) - of(radius),
+            Outline::Line { .. } | Outline::Segment { .. } => of(self.radius),
         }
     }
 }
 
-/// The direction of a difference and its length; none where that is nothing.
+/// The direction of a difference, 0 where it has no length, and its length.
 fn away<'a>(d: Vector<Scalar<'a>>) -> (Vector<Scalar<'a>>, Scalar<'a>) {
     let nowhere = d.x.algebra().number(Number::float(NOWHERE * NOWHERE));
     let length = d.dot(d).max(nowhere).sqrt().shared();
@@ -188,14 +191,14 @@ fn away<'a>(d: Vector<Scalar<'a>>) -> (Vector<Scalar<'a>>, Scalar<'a>) {
 
 fn act<'a>(contact: &Element<'a>, effects: &mut Effects<'_>) -> Option<()> {
     let pair = Pair::of(contact)?;
-    let Nearest { normal, distance, curvature, arm: [ahead, aside] } = pair.nearest();
+    let Nearest { normal, distance, arm: [ahead, aside] } = pair.nearest();
     let Pair { circle, radius, other, .. } = pair;
     let (d, tangent) = (circle.position - other.position, -normal.perpendicular());
     let rates = d.map(|component| effects.rate(component));
     let [spin, other_spin] = [circle.angle, other.angle].map(|angle| effects.rate(angle));
     let parting = normal.dot(rates) - aside * other_spin;
     let depth = (-distance).shared();
-    let push = pushed(contact, depth, -parting, curvature, effects)?.shared();
+    let push = pushed(contact, &pair, [depth, -parting], effects)?.shared();
     effects.exert(push, FORCE);
     let (mut force, mut moments) = (push * normal, [contact.algebra.number(0), -aside * push]);
     if let (Some(coefficient), Some(transition)) = (contact.get("coefficient"), contact.get("transition")) {
@@ -217,9 +220,8 @@ fn act<'a>(contact: &Element<'a>, effects: &mut Effects<'_>) -> Option<()> {
 /// N ≥ 0 of a penetration and its rate; what is elastic in it is stored.
 fn pushed<'a>(
     contact: &Element<'a>,
-    depth: Scalar<'a>,
-    rate: Scalar<'a>,
-    curvature: Scalar<'a>,
+    pair: &Pair<'a>,
+    [depth, rate]: [Scalar<'a>; 2],
     effects: &mut Effects<'_>,
 ) -> Option<Scalar<'a>> {
     let number = |value: i64| contact.algebra.number(value);
@@ -229,7 +231,7 @@ fn pushed<'a>(
         (Some(stiffness), _) => (stiffness * depth, stiffness * depth.squared() / 2),
         (_, Some(modulus)) => {
             // the root of what is gated
-            let root = (zero.max(depth) / curvature).sqrt();
+            let root = (zero.max(depth) / pair.curvature()).sqrt();
             let press = (number(4) * modulus / 3 * root * depth).shared();
             (press, number(2) * press * depth / 5)
         }

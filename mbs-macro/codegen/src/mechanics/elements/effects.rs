@@ -60,7 +60,7 @@ pub struct Effects<'m> {
     pub gap: Option<(Expr, Expr)>,
     /// Dry friction that sticks.
     pub sticks: Option<Sticks>,
-    /// How fast its own state changes.
+    /// The rate of its own state.
     pub state_rate: Option<Expr>,
 }
 

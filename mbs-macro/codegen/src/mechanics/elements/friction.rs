@@ -25,7 +25,7 @@ const WORDS: &[&str] = &[SMOOTH, COULOMB, LUGRE];
 const TRANSITION: &str = "transition";
 const STATIC: &str = "static";
 const BREAKAWAY: &str = "breakaway";
-/// How far bristles are bent while they slide.
+/// The bend of bristles that slide.
 pub const PRESLIDING: &str = "presliding";
 const RELAXATION: &str = "relaxation";
 const STRIBECK: &str = "stribeck";
