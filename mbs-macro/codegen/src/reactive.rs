@@ -60,6 +60,41 @@ pub struct Forces {
 #[derive(Debug)]
 pub struct Circular(pub usize);
 
+/// A contact that changes the reactions on which a load depends, while its impulses or forces hold: by their positions.
+/// Runs find those forces by the responses of the mechanism to them, behind the loads.
+#[derive(Debug)]
+pub struct Unsettled {
+    pub contact: usize,
+    pub load: usize,
+}
+
+/// Looks for contacts that change the reactions on which loads depend.
+///
+/// Friction that sticks has the direction 0. So friction that follows a reaction does not change it while it sticks.
+///
+/// # Errors
+/// The first one of them.
+pub fn settle(model: &mut Model, factorization: &Factorization) -> Result<(), Unsettled> {
+    let slopes: Vec<_> = model.contacts().map(|contact| contact.slopes.clone()).collect();
+    let stops = model.stops.len();
+    for (contact, slopes) in slopes.iter().enumerate() {
+        let response = response(model, factorization, slopes);
+        let direction = contact.checked_sub(stops).and_then(|at| Some(model.frictions.get(at)?.memory));
+        for load in 0..model.reactive_loads.len() {
+            let law = model.reactive_loads[load].work.force;
+            let slope = model.arena.derivative(law, &along(&response));
+            let symbols = model.arena.symbols_in(slope).into_iter();
+            let is_direction = |symbol: &Symbol| matches!(model.meanings[symbol.index()], Meaning::Input(at) if Some(at) == direction);
+            let at_rest = symbols.filter(is_direction).map(|symbol| (symbol, model.arena.zero())).collect();
+            let slope = model.arena.substitute(slope, &at_rest);
+            if !model.arena.is_zero(slope) {
+                return Err(Unsettled { contact, load });
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Solves for the loads that depend on multipliers, beside all `others`.
 ///
 /// # Errors
@@ -75,8 +110,8 @@ pub fn forces(
         return Ok(Forces { values, growth: model.arena.zero() });
     }
     let without = reactions_without(model, others, equations, factorization);
-    let responses: Vec<_> =
-        (0..model.reactive_loads.len()).map(|at| response(model, factorization, at)).collect();
+    let slopes: Vec<_> = model.reactive_loads.iter().map(|load| load.work.along.clone()).collect();
+    let responses: Vec<_> = slopes.iter().map(|slopes| response(model, factorization, slopes)).collect();
     let steps = steps(model, &responses);
     let algebra = &Algebra::new(&mut model.arena);
     let laws = model.reactive_loads.iter().map(|load| algebra.scalar(load.work.force)).collect();
@@ -237,10 +272,9 @@ fn reactions_without(
     multipliers_for(model, factorization, &rhs)
 }
 
-/// G Dᵢ: the multipliers for the load i alone, of size 1.
-fn response(model: &mut Model, factorization: &Factorization, load: usize) -> Multipliers {
-    let along = model.reactive_loads[load].work.along.iter();
-    let rhs = along.map(|&(at, slope)| (Unknown::Coordinate(at), slope)).collect();
+/// G D: the multipliers for a load of size 1 alone, with its slopes D.
+fn response(model: &mut Model, factorization: &Factorization, slopes: &[(usize, Expr)]) -> Multipliers {
+    let rhs = slopes.iter().map(|&(at, slope)| (Unknown::Coordinate(at), slope)).collect();
     multipliers_for(model, factorization, &rhs)
 }
 

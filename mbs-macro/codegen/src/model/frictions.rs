@@ -127,7 +127,6 @@ impl Resolver<'_> {
         let mut refuse = |message: String, help: &str| {
             self.errors.push(Diagnostic::new(span, message).help(help));
         };
-        let smooth = "take `law = smooth;` with a `transition`";
         if self.solver.has_reduced_states() {
             refuse(
                 format!("`{name}` sticks along coordinates that are not integrated"),
@@ -135,10 +134,10 @@ impl Resolver<'_> {
             );
         }
         if self.solver.reverse.is_some() {
-            refuse(format!("no way leads back through the sticking of `{name}`"), smooth);
-        }
-        if self.reactive_loads.len() > 1 {
-            refuse(format!("`{name}` sticks where several forces depend on reactions"), smooth);
+            refuse(
+                format!("no way leads back through the sticking of `{name}`"),
+                "take `law = smooth;` with a `transition`",
+            );
         }
     }
 }

@@ -211,12 +211,6 @@ impl Resolver<'_> {
                 "leave `gradients = reverse;` out: derivatives by dual numbers go through impacts",
             );
         }
-        if !self.reactive_loads.is_empty() {
-            refuse(
-                format!("a force depends on reactions, which an impact at `{name}` makes infinite"),
-                "let it depend on positions and velocities where there are stops",
-            );
-        }
     }
 }
 

@@ -19,6 +19,7 @@ use crate::derive::Equations;
 use crate::independence::{Rows, Samples};
 use crate::inputs::Inputs;
 use crate::model::Model;
+use crate::reactive;
 use crate::reduction::Reduction;
 use crate::stiff::Stiffness;
 use corners::corners;
@@ -94,6 +95,7 @@ pub fn plan(
     label(model, equations);
     let problem = Problem { equations, rows, inputs: &inputs, reduction: &reduction };
     let solver = cheapest(model, problem)?;
+    reactive::settle(model, &solver.factorization)?;
     let strategy = solver.strategy;
     let (positions, mut start_pivots) =
         correction(model, equations, rows, strategy, (samples, &inputs), false)?;

@@ -293,7 +293,8 @@ impl Solver {
             }
         }
         roots.extend(mobility);
-        roots.push(self.growth(model));
+        // of positions alone: loads that depend on reactions have their own in the other functions
+        roots.push(self.factorization.growth(&mut model.arena));
         roots
     }
 

@@ -2,7 +2,7 @@
 
 use mbs_symbolic::{Inconsistency, Undetermined};
 
-use crate::reactive::Circular;
+use crate::reactive::{Circular, Unsettled};
 
 /// The reason why a mechanism has no plan.
 #[derive(Debug)]
@@ -12,6 +12,8 @@ pub enum Unsolvable {
     Unknowns(Undetermined),
     /// A load that is undetermined by the reactions on which it depends.
     Load(Circular),
+    /// A contact that changes the reactions on which a load depends.
+    Contact(Unsettled),
     /// A load that depends on reactions which redundant constraints share.
     Shared,
     /// A mistake of the compiler.
@@ -33,5 +35,11 @@ impl From<Undetermined> for Unsolvable {
 impl From<Circular> for Unsolvable {
     fn from(load: Circular) -> Self {
         Self::Load(load)
+    }
+}
+
+impl From<Unsettled> for Unsolvable {
+    fn from(contact: Unsettled) -> Self {
+        Self::Contact(contact)
     }
 }

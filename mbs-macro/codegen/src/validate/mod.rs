@@ -32,7 +32,7 @@ pub(crate) use validation::tests as planned;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing};
 use crate::model::{Coordinate, Model};
 use crate::plan::{Plan, Unsolvable};
-use crate::reactive::Circular;
+use crate::reactive::{Circular, Unsettled};
 
 /// The error for a mechanism that cannot be planned.
 pub fn unsolvable(model: &Model, error: &Unsolvable) -> Diagnostics {
@@ -48,12 +48,41 @@ pub fn unsolvable(model: &Model, error: &Unsolvable) -> Diagnostics {
             .help("remove the spare constraints, or give the load a force that is known")
             .into()
         }
+        Unsolvable::Contact(contact) => unsettled(model, contact).into(),
         Unsolvable::Load(Circular(at)) => {
             let span = model.reactive_loads.get(*at).map_or(model.name.span(), |load| load.span);
             Diagnostic::new(span, "this load changes the reaction that it depends on by its own size or more, so nothing determines it")
                 .help("let it follow a smaller part of the reaction, or another one")
                 .into()
         }
+    }
+}
+
+/// The error for a contact that changes the reactions on which a load depends.
+fn unsettled(model: &Model, &Unsettled { contact, load }: &Unsettled) -> Diagnostic {
+    let of_load = model.reactive_loads.get(load).map(|load| load.span);
+    let note = "it depends on a reaction";
+    let diagnostic = match (model.stops.get(contact), contact.checked_sub(model.stops.len())) {
+        (Some(stop), _) => {
+            let name = &stop.quantity.name;
+            let message =
+                format!("an impact at `{name}` makes a reaction infinite, on which a force depends");
+            let help = "let the force depend on positions and velocities, or on a reaction that the stop does not change";
+            Diagnostic::new(stop.span, message).help(help)
+        }
+        (None, Some(friction)) if let Some(friction) = model.frictions.get(friction) => {
+            let name = &friction.quantity.name;
+            let message =
+                format!("`{name}` changes a reaction while it sticks, on which another force depends");
+            let help =
+                "take `law = smooth;` with a `transition`, or let the other force depend on what is known";
+            Diagnostic::new(friction.span, message).help(help)
+        }
+        _ => Diagnostic::new(model.name.span(), "a contact changes a reaction on which a force depends"),
+    };
+    match of_load {
+        Some(span) => diagnostic.note(span, note),
+        None => diagnostic,
     }
 }
 

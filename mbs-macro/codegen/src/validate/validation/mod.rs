@@ -1,8 +1,9 @@
 //! Checks of the programs that are about to be emitted, against an independent
 //! evaluation of the declaration. `functions` compares programs with Φ along curves,
 //! and with forces and energies from their definitions. `solutions` puts solutions back
-//! into the equations.
+//! into the equations. `arguments` looks at what programs read.
 
+mod arguments;
 mod bodies;
 mod functions;
 mod solutions;
@@ -32,6 +33,7 @@ pub fn check_programs(
     plan: &Plan,
     samples: &Samples,
 ) -> Result<(), Diagnostics> {
+    arguments::check(model, plan).map_err(|wrong| Diagnostic::internal(model.name.span(), wrong))?;
     if has_extreme_numbers(model, plan) {
         return Ok(());
     }
