@@ -9,7 +9,8 @@
 //! ```
 //!
 //! Impulses that halt act over the rest of the step, so that they move positions by ½ (1 − s) h Y Λ. Friction that sticks
-//! acts by halves of its impulse before and behind a step, as stops do that are rested on; both are at most h L₀. See
+//! acts by halves of its impulse before and behind a step, as stops do that are rested on; both are at most h L₀. What has
+//! stuck in a whole step is where it was before: positions are led back to it the shortest way by masses. See
 //! [`moreau`](crate::moreau).
 
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
@@ -54,7 +55,8 @@ pub(crate) fn halt<T: Real>(
     if friction == 0 {
         return Ok(false);
     }
-    let rates = Gaps::of(equations, At { t, q, v }, changes.still).rate;
+    let now = Gaps::of(equations, At { t, q, v }, changes.still);
+    let rates = now.rate;
     let memory = |row: usize| (direction(info, inputs, row), holding(info, inputs, row));
     let crossed = crossing(info, &rates, memory);
     let has_acted = (pushed & friction) | crossed != 0;
@@ -64,16 +66,18 @@ pub(crate) fn halt<T: Real>(
         equations.free_reactions(at, inputs, changes.q, changes.rows);
         pressed(equations, at, inputs, changes.q, Some(&mut *changes.rows));
         let limits = Limits::of(equations, at, inputs, [changes.q, changes.rows]);
-        let was = Gaps::of(equations, before, changes.still).rate;
+        let was = Gaps::of(equations, before, changes.still);
         vectors::fill(changes.q, T::ZERO);
         vectors::fill(changes.v, T::ZERO);
         let answered = Contacts::at(equations, (t, q), |contacts| {
             let sets = [pushed & friction, resting];
             let (halting, impulses) =
-                Halting::answered(info, &contacts, (h, sets), [&was, &rates], (&limits, memory))?;
+                Halting::answered(info, &contacts, (h, sets), [&was.rate, &rates], (&limits, memory))?;
             let moved = core::array::from_fn(|row| of(&impulses, row) * of(&halting.shift, row));
+            let back = halting.back(&contacts, sets, [&was.gap, &now.gap], &moved);
             contacts.add(&impulses, changes.v);
             contacts.add(&moved, changes.q);
+            contacts.add(&back, changes.q);
             Some(halting)
         });
         let halting =
@@ -159,6 +163,26 @@ impl<T: Real> Halting<T> {
             }
         }
         it
+    }
+
+    /// What leads back to where they were what stuck in the whole step; stops that are rested on stay where they are.
+    fn back(
+        &self,
+        contacts: &Contacts<'_, T>,
+        [stuck, resting]: [u32; 2],
+        [was, now]: [&Each<T>; 2],
+        moved: &Each<T>,
+    ) -> Each<T> {
+        let held = self.halted & stuck;
+        if held == 0 {
+            return [T::ZERO; MOST_CONTACTS];
+        }
+        let changes = contacts.rates(moved);
+        let slipped = core::array::from_fn(|row| {
+            let slipped = if has(held, row) { of(now, row) - of(was, row) } else { T::ZERO };
+            slipped + of(&changes, row)
+        });
+        contacts.solve(held | resting, &slipped)
     }
 
     /// The impulses of frictions and at stops that are rested on; the worst one that needs more than it can have slides on.

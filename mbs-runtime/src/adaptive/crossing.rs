@@ -176,6 +176,10 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if let Some(is_rising) = direction.met(first, before) {
             return Some(Bracket { from: start, to: from, is_rising });
         }
+        // friction that holds with all that it can at the start, and then more
+        if first == zero && before < zero && !self.is_at_event(index) && self.is_sticking(index) {
+            return Some(Bracket { from: start, to: from, is_rising: false });
+        }
         if gaps::stop_in(self.dynamics.equations(), index).is_some() {
             return self.closing(index, (from, before), watched);
         }
@@ -199,15 +203,20 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         None
     }
 
+    /// True if a value was at its event where the last step began.
+    fn is_at_event(&self, index: usize) -> bool {
+        let Happened { all, judged, is_set, .. } = self.happened_before;
+        let bit = u32::try_from(index).ok().and_then(|index| 1_u64.checked_shl(index)).unwrap_or(0);
+        (judged | if is_set { all } else { 0 }) & bit != 0
+    }
+
     /// From where on a value has a sign in the last step. In a state that a program has set it is zero if it
     /// is that to rounding, and has then the sign with which it leaves zero.
     fn beginning(&mut self, index: usize, watched: &mut Watched<'_, D>) -> Beginning<D::Real> {
         let number = D::Real::from_f64;
         let (start, end) = (self.before.t, self.now.t);
         let value = self.value_between(start, index, watched);
-        let Happened { all, judged, is_set, .. } = self.happened_before;
-        let bit = u32::try_from(index).ok().and_then(|index| 1_u64.checked_shl(index)).unwrap_or(0);
-        let is_at_event = (judged | if is_set { all } else { 0 }) & bit != 0;
+        let (is_set, is_at_event) = (self.happened_before.is_set, self.is_at_event(index));
         // at its event a value has a sign by rounding
         let first = if is_at_event { D::Real::default() } else { value };
         let mut found = Beginning { first, t: start, value, rounding: D::Real::default(), is_zero: false };

@@ -140,6 +140,16 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         is_long
     }
 
+    /// True of what is watched of a friction that sticks.
+    pub(super) fn is_sticking(&mut self, index: usize) -> bool {
+        let Some(row) = stop_in(self.dynamics.equations(), index) else { return false };
+        let sticking = self.with_jump(|jump| {
+            let equations = jump.dynamics.equations();
+            held(equations, jump.inputs) & all_frictions(equations.info())
+        });
+        has(sticking, row)
+    }
+
     /// True of a stop or a friction that others hold: a stop that stays closed in the last step and is not rested on, a
     /// friction that slides and does not move in it.
     pub(super) fn is_held_by_others(&mut self, index: usize, watched: &mut Watched<'_, D>) -> bool {

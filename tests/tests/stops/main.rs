@@ -5,6 +5,7 @@
 mod bristles;
 mod contact;
 mod energy;
+mod held;
 mod rests;
 mod several;
 mod steps;

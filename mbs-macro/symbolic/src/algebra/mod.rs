@@ -22,7 +22,7 @@ mod vector;
 use rustc_hash::FxHashMap as HashMap;
 use std::cell::RefCell;
 
-use crate::arena::{Arena, Expr, Node, Symbol};
+use crate::arena::{Arena, Expr, Node, Stage, Symbol};
 use crate::arithmetic::Arithmetic;
 use crate::number::Number;
 use crate::operators::Function;
@@ -113,6 +113,11 @@ impl<'a> Scalar<'a> {
             Node::Call(function, _) if function.row().arity == 1 => Some(*function),
             _ => None,
         })
+    }
+
+    /// When it is known.
+    pub fn stage(self) -> Stage {
+        self.algebra.read(self.expr, Arena::stage)
     }
 
     /// The symbols that it depends on, in order.

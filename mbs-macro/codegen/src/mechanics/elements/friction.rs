@@ -9,7 +9,7 @@
 //!   whose σ₀ is μ |N|/z_c and σ₁ is τ σ₀).
 
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Function, Scalar};
+use mbs_symbolic::{Function, Scalar, Stage};
 
 use super::properties::{FORCE, Given, Property, RATE, SPEED, TORQUE, Unsaid};
 use super::{Effects, Element, ElementKind, Freedom, Places, Sticks};
@@ -223,12 +223,22 @@ fn bristles<'a>(friction: &Element<'a>, speed: Scalar<'a>, effects: &mut Effects
     Some(share + relaxation * rate / sliding)
 }
 
+/// What varies counts as 0 where it is negative: friction does not push.
+fn braking(size: Scalar<'_>) -> Scalar<'_> {
+    let is_negative_nowhere = matches!(size.function(), Some(Function::Abs | Function::Sqrt | Function::Exp));
+    if is_negative_nowhere || size.stage() < Stage::Variable {
+        size
+    } else {
+        size.max(size.algebra().number(0))
+    }
+}
+
 /// The largest dry friction: μ |N|, times the radius of a pin; or as given.
 fn dry_limit<'a>(friction: &Element<'a>, torque: &str, coefficient: &str) -> Option<Scalar<'a>> {
     if let Some(torque) = friction.get(torque) {
-        return Some(torque);
+        return Some(braking(torque));
     }
-    let (coefficient, normal) = (friction.get(coefficient)?, friction.get("normal")?);
+    let (coefficient, normal) = (braking(friction.get(coefficient)?), friction.get("normal")?);
     let normal = match normal.function() {
         // The size of a reaction is one already.
         Some(Function::Abs | Function::Sqrt) => normal,

@@ -31,10 +31,10 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
         target.fill(include_str!("text/step.c")),
         fused.iter().map(Kernel::text).collect(),
         target.fill(if has_stops { include_str!("text/contacts.c") } else { "" }),
+        target.fill(if has_stops { include_str!("text/sticking.c") } else { "" }),
         target.fill(&within(target.compiled, &results(target.compiled)).replace("STEP", step)),
         target.fill(&if has_stops {
-            include_str!("text/sticking.c").to_owned()
-                + &unsampled(target.compiled, include_str!("text/stops.c"))
+            unsampled(target.compiled, include_str!("text/stops.c"))
         } else {
             String::new()
         }),
@@ -81,11 +81,18 @@ fn unsampled(compiled: &Compiled, text: &str) -> String {
     })
 }
 
-/// The functions that a run is asked with, and forces at stops where there are any.
+/// The functions that a run is asked with. What stops and frictions do has a part in them where there are any.
 fn results(compiled: &Compiled) -> String {
     let text = include_str!("text/results.c");
-    let is_kept = |line: &&str| compiled.contacts() > 0 || !line.contains("NAME_press(");
-    text.split_inclusive('\n').filter(is_kept).collect()
+    let holds = !compiled.frictions.is_empty();
+    let lines = text.split_inclusive('\n').filter(|line| {
+        (compiled.contacts() > 0 || !line.contains("NAME_press("))
+            && (holds
+                || !["inputs = run->inputs", "stick here", "NAME_hold(", "run->inputs = inputs"]
+                    .iter()
+                    .any(|it| line.contains(it)))
+    });
+    lines.collect()
 }
 
 /// A text in which inputs begin at their declared values; where these are 0, they are so already.

@@ -37,15 +37,25 @@ int NAME_step_with_reactions(struct NAME_run *run, struct NAME_reactions *reacti
     return code == CAPS_OK ? NAME_step(run) : code;
 }
 
-int NAME_outputs(struct NAME_run *run, struct NAME_outputs *outputs)
+static void NAME_find_outputs(
+    struct NAME_run *run, const struct NAME_reactions *reactions, struct NAME_outputs *outputs)
 {
     const struct NAME_state *const at = &run->state;
+    const struct NAME_inputs inputs = run->inputs;
+    /* with the forces with which frictions stick here */
+    NAME_hold(run);
+    NAME_compute_outputs(run->mechanism, at->t, &at->q, &at->v, &run->inputs, reactions, outputs);
+    run->inputs = inputs;
+}
+
+int NAME_outputs(struct NAME_run *run, struct NAME_outputs *outputs)
+{
     struct NAME_reactions reactions = {0};
     const int code = NAME_reactions(run, &reactions);
     if (code != CAPS_OK) {
         return code;
     }
-    NAME_compute_outputs(run->mechanism, at->t, &at->q, &at->v, &run->inputs, &reactions, outputs);
+    NAME_find_outputs(run, &reactions, outputs);
     run->where = NAME_first_non_finite(NAME_elements(outputs), CAPS_OUTPUTS);
     return run->where < 0 ? CAPS_OK : CAPS_UNDEFINED_OUTPUT;
 }

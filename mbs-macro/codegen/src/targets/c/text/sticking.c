@@ -266,6 +266,26 @@ static void NAME_find_halts(
     }
 }
 
+/* What leads back to where they were what stuck in the whole step; stops that are rested on stay where they are. */
+static void NAME_find_way_back(
+    const real *contacts, const int *stuck, const int *resting, const real *was, const real *now,
+    const struct NAME_halting *it, const real *moved, real *back)
+{
+    real slipped[CAPS_ROWS];
+    int set[CAPS_ROWS], is_held = 0;
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        const int held = it->halted[row] && stuck[row];
+        slipped[row] = held ? now[3 * row] - was[3 * row] : 0;
+        set[row] = held || resting[row];
+        back[row] = 0;
+        is_held = is_held || held;
+    }
+    if (is_held) {
+        NAME_change_rates(contacts, moved, slipped);
+        NAME_solve_at_stops(contacts, set, slipped, back);
+    }
+}
+
 /* Answers friction at the end of a step, behind what stops did. */
 static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_state *before)
 {
@@ -278,7 +298,7 @@ static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_
     struct NAME_coordinates of_q = {0}, of_v = {0};
     real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, limits[2 * CAPS_ROWS] = {0};
     real contacts[CAPS_CONTACTS] = {0}, forces[CAPS_ROWS], impulses[CAPS_ROWS], moved[CAPS_ROWS];
-    real ends[3 * CAPS_ROWS], rates[CAPS_ROWS];
+    real back[CAPS_ROWS], ends[3 * CAPS_ROWS], rates[CAPS_ROWS];
     int held[CAPS_ROWS], stuck[CAPS_ROWS] = {0}, crossed[CAPS_ROWS] = {0}, has_acted = 0, acts[CAPS_ROWS] = {0};
     if (CAPS_ROWS == CAPS_STOPS) {
         return CAPS_OK;
@@ -336,7 +356,9 @@ static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_
         for (int row = 0; row < CAPS_ROWS; row++) {
             moved[row] = impulses[row] * it.shift[row];
         }
+        NAME_find_way_back(contacts, stuck, held, was, now, &it, moved, back);
         NAME_add_responses(contacts, moved, 0, CAPS_COORDINATES, NAME_places(&of_q));
+        NAME_add_responses(contacts, back, 0, CAPS_COORDINATES, NAME_places(&of_q));
         NAME_add_responses(contacts, impulses, 0, CAPS_COORDINATES, NAME_places(&of_v));
         NAME_add(NAME_places(&at->q), 1, NAME_elements(&of_q), CAPS_COORDINATES);
         NAME_add(NAME_places(&at->v), 1, NAME_elements(&of_v), CAPS_COORDINATES);

@@ -103,7 +103,12 @@ static int solve(struct instance *it)
             PLACES(now->acceleration)[STATE_PLACES[j]] = derivatives[j];
         }
     }
-    NAME_compute_outputs(run->mechanism, at->t, &at->q, &at->v, &now->inputs, &now->reactions, &now->outputs);
+    if (HAS_STOPS) {
+        /* with the forces with which frictions stick here */
+        code = NAME_outputs(run, &now->outputs);
+    } else {
+        NAME_compute_outputs(run->mechanism, at->t, &at->q, &at->v, &now->inputs, &now->reactions, &now->outputs);
+    }
     NAME_compute_events(run->mechanism, at->t, &at->q, &at->v, &now->inputs, now->events);
     for (int output = 0; output < CAPS_OUTPUTS; output++) {
         if (!isfinite(ELEMENTS(now->outputs)[output])) {

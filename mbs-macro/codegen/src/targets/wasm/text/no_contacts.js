@@ -2,6 +2,8 @@
 class AtStops extends Start {
   touch() {}
 
+  hold() {}
+
   press() {
     return 0;
   }

@@ -154,10 +154,17 @@ class Run extends AtStops {
   // Multipliers and outputs of the present state; not numbers where they are not defined.
   results() {
     const m = this.mechanism, n = this.q.length, multipliers = m.reactions.subarray(n);
+    // outputs have the forces with which frictions stick here
+    const inputs = this.inputs.slice();
+    this.hold();
+    const held = this.inputs.slice();
+    this.inputs.set(inputs);
     let growth = m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, multipliers);
     growth = growth + this.press(m.reactions);
     if (!(growth < this.tables.growthLimit)) m.reactions.fill(NaN);
+    this.inputs.set(held);
     m.call("outputs", this.t, this.q, this.v, this.inputs, m.reactions, m.outputs);
+    this.inputs.set(inputs);
     return { multipliers, outputs: m.outputs };
   }
 

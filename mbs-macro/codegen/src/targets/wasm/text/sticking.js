@@ -137,11 +137,19 @@ class Sticking extends Start {
     }
   }
 
+  // What leads back to where they were what stuck in the whole step and has slipped; stops that are rested on stay where
+  // they are.
+  wayBack(slipped, resting, moved) {
+    if (!slipped.some((it) => it !== undefined)) return this.each(() => 0);
+    const b = this.changed(slipped.map((it) => it ?? 0), moved);
+    return this.solveAtStops(slipped.map((it, row) => it !== undefined || resting[row]), b);
+  }
+
   // Answers friction at the end of a step, behind what stops did.
   halt(pushed, before) {
     const m = this.mechanism, n = this.q.length, rows = this.frictions();
     if (!rows.length) return;
-    const now = this.gapsAt(this.t, this.q, this.v, m.unmoved).map(({ rate }) => rate), ends = now.slice();
+    const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved), now = gaps.map(({ rate }) => rate), ends = now.slice();
     const stuck = pushed.map((it, row) => it && !this.isStop(row));
     const crossed = now.map((rate, row) => !this.isStop(row) && this.direction(row) * rate < 0);
     if (!stuck.includes(true) && !crossed.includes(true)) {
@@ -154,7 +162,7 @@ class Sticking extends Start {
     const limits = this.limits(m.reactions);
     m.trialQ.set(before.q);
     m.trialV.set(before.v);
-    const was = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved).map(({ rate }) => rate);
+    const gapsBefore = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved), was = gapsBefore.map(({ rate }) => rate);
     m.call("contacts", this.t, this.q, m.contacts);
     const acts = stuck.map((it, row) => it || crossed[row]);
     if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("JAMMED", acts.indexOf(true));
@@ -163,13 +171,17 @@ class Sticking extends Start {
     crossed.fill(false);
     for (;;) {
       const halting = this.halting(stuck, crossed, was, ends, limits);
-      const { impulses, directions } =
-        this.findHalts(resting, now, stuck.map((it, row) => it || crossed[row]), halting);
+      const halted = stuck.map((it, row) => it || crossed[row]);
+      const { impulses, directions } = this.findHalts(resting, now, halted, halting);
       const rates = this.changed(now, impulses);
       const late = rows.filter((row) => !stuck[row] && !crossed[row] && this.direction(row) * rates[row] < 0);
       if (!late.length) {
         const ofQ = new Float64Array(n), ofV = new Float64Array(n);
-        this.addResponses(impulses.map((impulse, row) => impulse * halting[row].shift), 0, ofQ);
+        const moved = impulses.map((impulse, row) => impulse * halting[row].shift);
+        const slipped = gaps.map(({ gap }, row) => (halted[row] && stuck[row] ? gap - gapsBefore[row].gap : undefined));
+        const back = this.wayBack(slipped, resting, moved);
+        this.addResponses(moved, 0, ofQ);
+        this.addResponses(back, 0, ofQ);
         this.addResponses(impulses, 0, ofV);
         add(this.q, 1, ofQ);
         add(this.v, 1, ofV);
