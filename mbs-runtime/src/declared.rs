@@ -32,6 +32,55 @@ pub struct DeclaredFriction {
     pub limits: [&'static str; 2],
 }
 
+/// The modes of a mechanism: constraints that come and go, and what enters and leaves them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Modes {
+    /// The modes.
+    pub modes: &'static [DeclaredMode],
+    /// Their constraints.
+    pub locks: &'static [DeclaredLock],
+    /// What happens where a condition begins to hold.
+    pub transitions: &'static [DeclaredTransition],
+}
+
+impl Modes {
+    /// A mechanism without modes and transitions.
+    pub const NONE: Self = Self { modes: &[], locks: &[], transitions: &[] };
+}
+
+/// Constraints that come and go together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeclaredMode {
+    /// Its name.
+    pub name: &'static str,
+    /// The place among the inputs of the memory that is 1 while it holds.
+    pub memory: usize,
+}
+
+/// A constraint of a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeclaredLock {
+    /// Its name.
+    pub name: &'static str,
+    /// The place among the inputs of the memory of its mode.
+    pub mode: usize,
+    /// That of the memory of its multiplier while it holds.
+    pub held: usize,
+    /// Φ, or Φ̇ of an equation between rates, unless it is too long to read.
+    pub formula: &'static str,
+}
+
+/// What is set where a condition begins to hold: a sample, as a clock takes them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeclaredTransition {
+    /// The condition as it was written.
+    pub condition: &'static str,
+    /// True if it holds where its value is positive.
+    pub is_rising: bool,
+    /// The place among the inputs of the memory of the sign that the value had last.
+    pub memory: usize,
+}
+
 /// A declared change of sign of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeclaredEvent {

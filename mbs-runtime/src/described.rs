@@ -65,7 +65,7 @@ impl<M: Mechanism> Described<M::Real> for M {
         let (acceleration, multipliers): (M::Coordinates, M::Constraints) =
             (read(acceleration), read(multipliers));
         let mut inputs: M::Inputs = read(inputs);
-        if !M::INFO.frictions.is_empty() {
+        if M::INFO.holds() {
             let mut own = inputs.into_array();
             let (mut a, mut lambda) = (acceleration.into_array(), multipliers.into_array());
             hold(self, at, own.as_mut(), [a.as_mut(), lambda.as_mut()]);

@@ -136,6 +136,9 @@ pub trait Equations<T: Real> {
     /// Sets the memories of a clock, which stand behind the inputs; see [`Mechanism::sample`].
     fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize);
 
+    /// Writes the values of transitions; see [`Mechanism::transitions`].
+    fn transitions(&self, _at: At<'_, T>, _inputs: &[T], _values: &mut [T]) {}
+
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: At<'_, T>) -> T;
 
@@ -203,6 +206,10 @@ impl<M: Mechanism> Equations<M::Real> for M {
 
     fn clock(&self, clock: usize) -> [M::Real; 2] {
         Mechanism::clock(self, clock)
+    }
+
+    fn transitions(&self, at: At<'_, M::Real>, inputs: &[M::Real], values: &mut [M::Real]) {
+        Mechanism::transitions(self, &at.state(), &read(inputs), values);
     }
 
     fn sample(&self, at: At<'_, M::Real>, inputs: &mut [M::Real], clock: usize) {

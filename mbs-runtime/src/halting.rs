@@ -16,6 +16,7 @@
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
 use crate::equations::{At, Equations};
 use crate::mechanism::growth_limit;
+use crate::modes::locked;
 use crate::moreau::Changes;
 use crate::pressing::{held, pressed};
 use crate::sticking::{Limits, all_frictions, direction, frictions, hold, holding, loose, set, unanswered};
@@ -51,16 +52,17 @@ pub(crate) fn halt<T: Real>(
     inputs: &mut [T],
 ) -> Result<bool, Error> {
     let info = equations.info();
-    let friction = all_frictions(info);
-    if friction == 0 {
+    let (friction, locked) = (all_frictions(info), locked(info, inputs));
+    if friction | locked == 0 {
         return Ok(false);
     }
     let now = Gaps::of(equations, At { t, q, v }, changes.still);
     let rates = now.rate;
     let memory = |row: usize| (direction(info, inputs, row), holding(info, inputs, row));
     let crossed = crossing(info, &rates, memory);
-    let has_acted = (pushed & friction) | crossed != 0;
+    let has_acted = (pushed & friction) | crossed | locked != 0;
     if has_acted {
+        // stops that are rested on, and constraints of modes, hold meanwhile
         let resting = held(equations, inputs) & !friction;
         let at = At { t, q, v };
         equations.free_reactions(at, inputs, changes.q, changes.rows);
@@ -74,14 +76,15 @@ pub(crate) fn halt<T: Real>(
             let (halting, impulses) =
                 Halting::answered(info, &contacts, (h, sets), [&was.rate, &rates], (&limits, memory))?;
             let moved = core::array::from_fn(|row| of(&impulses, row) * of(&halting.shift, row));
-            let back = halting.back(&contacts, sets, [&was.gap, &now.gap], &moved);
+            let back = halting.back(&contacts, (sets, locked), [&was.gap, &now.gap], &moved);
             contacts.add(&impulses, changes.v);
             contacts.add(&moved, changes.q);
             contacts.add(&back, changes.q);
             Some(halting)
         });
-        let halting =
-            answered.flatten().ok_or_else(|| unanswered(info, t.to_f64(), pushed & friction | crossed))?;
+        let halting = answered
+            .flatten()
+            .ok_or_else(|| unanswered(info, t.to_f64(), pushed & friction | crossed | locked))?;
         vectors::zip_map(q, changes.q, |q, change| q + change);
         vectors::zip_map(v, changes.v, |v, change| v + change);
         for (row, _) in frictions(info).filter(|(row, _)| has(halting.all, *row)) {
@@ -165,21 +168,26 @@ impl<T: Real> Halting<T> {
         it
     }
 
-    /// What leads back to where they were what stuck in the whole step; stops that are rested on stay where they are.
+    /// What leads back to where they were what stuck in the whole step, and to the constraints of modes; stops that are rested
+    /// on stay where they are.
     fn back(
         &self,
         contacts: &Contacts<'_, T>,
-        [stuck, resting]: [u32; 2],
+        ([stuck, resting], locked): ([u32; 2], u32),
         [was, now]: [&Each<T>; 2],
         moved: &Each<T>,
     ) -> Each<T> {
         let held = self.halted & stuck;
-        if held == 0 {
+        if held | locked == 0 {
             return [T::ZERO; MOST_CONTACTS];
         }
         let changes = contacts.rates(moved);
         let slipped = core::array::from_fn(|row| {
-            let slipped = if has(held, row) { of(now, row) - of(was, row) } else { T::ZERO };
+            let slipped = match has(locked, row) {
+                true => of(now, row),
+                false if has(held, row) => of(now, row) - of(was, row),
+                false => T::ZERO,
+            };
             slipped + of(&changes, row)
         });
         contacts.solve(held | resting, &slipped)

@@ -1,7 +1,8 @@
 //! The description of a mechanism for tools: names, units, equations, counts.
 
 use crate::Error;
-use crate::declared::{DeclaredEvent, DeclaredFriction, DeclaredStop};
+use crate::contact::MOST_CONTACTS;
+use crate::declared::{DeclaredEvent, DeclaredFriction, DeclaredStop, Modes};
 
 /// At most so many events are watched at once.
 pub const MOST_EVENTS: usize = 64;
@@ -56,6 +57,8 @@ pub struct Info {
     pub stops: &'static [DeclaredStop],
     /// Friction that sticks.
     pub frictions: &'static [DeclaredFriction],
+    /// Constraints that come and go.
+    pub modes: Modes,
     /// Operation counts of the generated functions.
     pub functions: &'static [Function],
 }
@@ -279,38 +282,70 @@ impl Info {
     }
 
     /// The name of an event by its index: that of a declared one, or of a stop, which count down from the last of
-    /// [`MOST_EVENTS`](crate::MOST_EVENTS), and behind them of a friction that sticks.
+    /// [`MOST_EVENTS`](crate::MOST_EVENTS), behind them of a friction that sticks, or the condition of a transition.
     pub fn event_name(&self, index: usize) -> Option<&'static str> {
         if let Some(event) = self.events.get(index) {
             return Some(event.name);
         }
         let row = (MOST_EVENTS - 1).checked_sub(index)?;
+        if let Some(transition) = row.checked_sub(MOST_CONTACTS) {
+            return self.modes.transitions.get(transition).map(|transition| transition.condition);
+        }
         match row.checked_sub(self.stops.len()) {
             Some(friction) => self.frictions.get(friction).map(|friction| friction.name),
             None => self.stops.get(row).map(|stop| stop.name),
         }
     }
 
-    /// Refuses friction that sticks.
+    /// Refuses friction that sticks, and modes.
     ///
     /// # Errors
-    /// [`Error::Sticks`].
+    /// [`Error::Sticks`], [`Error::Modes`].
     pub fn refuse_sticking(&self, what: &'static str) -> Result<(), Error> {
+        self.refuse_modes(what)?;
         match self.frictions.first() {
             Some(friction) => Err(Error::Sticks { what, friction: friction.name }),
             None => Ok(()),
         }
     }
 
-    /// The number of values along which impulses act: the gaps of stops, and behind them the ways of frictions that stick.
+    /// The number of values along which impulses act: the gaps of stops, behind them the ways of frictions that stick, and
+    /// behind these the constraints of modes.
     pub const fn contacts(&self) -> usize {
+        self.watched_contacts() + self.modes.locks.len()
+    }
+
+    /// Those of them that decide themselves whether they hold: stops and frictions.
+    pub(crate) const fn watched_contacts(&self) -> usize {
         self.stops.len() + self.frictions.len()
+    }
+
+    /// True if memories have forces with which frictions stick, or constraints of modes hold.
+    pub const fn holds(&self) -> bool {
+        self.frictions.len() + self.modes.locks.len() > 0
+    }
+
+    /// True if velocities or memories may jump at the end of a step.
+    pub const fn jumps(&self) -> bool {
+        self.contacts() + self.modes.transitions.len() > 0
+    }
+
+    /// Refuses constraints that come and go.
+    ///
+    /// # Errors
+    /// [`Error::Modes`].
+    pub fn refuse_modes(&self, what: &'static str) -> Result<(), Error> {
+        match (self.modes.modes.first(), self.modes.transitions.first()) {
+            (Some(mode), _) => Err(Error::Modes { what, mode: mode.name }),
+            (None, Some(transition)) => Err(Error::Modes { what, mode: transition.condition }),
+            (None, None) => Ok(()),
+        }
     }
 
     /// Refuses stops and friction that sticks, for what sees neither impact nor sticking.
     ///
     /// # Errors
-    /// [`Error::Stops`], [`Error::Sticks`].
+    /// [`Error::Stops`], [`Error::Sticks`], [`Error::Modes`].
     pub fn refuse_stops(&self, what: &'static str) -> Result<(), Error> {
         self.refuse_sticking(what)?;
         match self.stops.first() {
@@ -358,6 +393,7 @@ impl Info {
         sampling: Sampling,
         stops: &'static [DeclaredStop],
         frictions: &'static [DeclaredFriction],
+        modes: Modes,
         functions: &'static [Function],
     ) -> Self {
         Self {
@@ -380,6 +416,7 @@ impl Info {
             sampling,
             stops,
             frictions,
+            modes,
             functions,
         }
     }

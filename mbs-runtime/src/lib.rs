@@ -144,6 +144,7 @@ mod kinematics;
 pub mod lanes;
 mod mechanism;
 mod method;
+mod modes;
 mod moreau;
 mod pack;
 mod pair;
@@ -177,7 +178,9 @@ pub use baumgarte::Baumgarte;
 pub use components::{Components, NoComponents};
 pub use constant::{ConstantStep, ConstantStepBuilder, Kernel, Rattle, RattleStep, TrBdf2, TrBdf2Step};
 pub use corners::{Knots, Switch};
-pub use declared::{DeclaredEvent, DeclaredFriction, DeclaredStop};
+pub use declared::{
+    DeclaredEvent, DeclaredFriction, DeclaredLock, DeclaredMode, DeclaredStop, DeclaredTransition, Modes,
+};
 pub use derivation::{Derivation, Elimination, Formula};
 pub use dual::Dual;
 pub use error::Error;

@@ -358,7 +358,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     ) {
     }
 
-    /// Does something with the responses to unit impulses along the gaps of stops and the ways of frictions: of each the changes Y of the
+    /// Does something with the responses to unit impulses along the gaps of stops, the ways of frictions and constraints of modes: of each the changes Y of the
     /// velocities and those of the multipliers μ, and ∂g/∂q,
     ///
     /// ```text
@@ -375,6 +375,15 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
 
     /// Sets the memories of a clock as they are from a sample at this state on.
     fn sample(&self, _at: &State<Self::Coordinates>, _inputs: &mut Self::Inputs, _clock: usize) {}
+
+    /// Writes the values of [transitions](crate::Modes::transitions), whose sets are samples behind those of the clocks.
+    fn transitions(
+        &self,
+        _at: &State<Self::Coordinates>,
+        _inputs: &Self::Inputs,
+        _values: &mut [Self::Real],
+    ) {
+    }
 
     /// The declared outputs, given q̈ and λ.
     fn outputs(

@@ -24,8 +24,9 @@ use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, has, number, those};
 use crate::equations::{At, Equations};
 use crate::halting::halt;
 use crate::mechanism::growth_limit;
+use crate::modes::{self, all_stops, are_met, close, engage, locked, look, pass};
 use crate::pressing::held;
-use crate::sticking::{Held, Undecided, all_frictions, decide, frictions, set};
+use crate::sticking::{Held, Undecided, all_frictions, decide, frictions, hold, set};
 use crate::{Error, Real, vectors};
 
 /// A start is behind a stop by more than this share of the size of the coordinates.
@@ -87,16 +88,20 @@ pub fn push<T: Real>(
     (t, q, v): (T, &[T], &mut [T]),
     inputs: &mut [T],
 ) -> Result<u32, Error> {
-    let held = held(equations, inputs);
+    let (info, held) = (equations.info(), held(equations, inputs));
     if held == 0 {
         return Ok(0);
     }
-    let still = held & all_frictions(equations.info());
-    let (at, undecided) = (At { t, q, v }, Undecided { resting: held & !still, still, breaking: 0 });
-    let Held { held, forces } = decide(equations, at, inputs, undecided, [changes.q, changes.rows])?;
+    let Changes { still, rows, q: of_q, v: of_v } = changes;
+    let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: of_v };
+    engage(equations, (h, own), (t, q, &mut *v), inputs)?;
+    let still = held & all_frictions(info);
+    let (at, undecided) = (At { t, q, v }, Undecided { resting: held & all_stops(info), still, breaking: 0 });
+    let Held { held, forces } = decide(equations, at, inputs, undecided, [of_q, rows])?;
     let half = T::from_f64(0.5) * h;
     Contacts::at(equations, (t, q), |contacts| contacts.add(&forces.map(|force| half * force), v));
-    Ok(those(MOST_CONTACTS, |row| has(held & still, row) || number(&forces, row) > 0.0))
+    let holds = held & (still | locked(info, inputs));
+    Ok(those(MOST_CONTACTS, |row| has(holds, row) || number(&forces, row) > 0.0))
 }
 
 /// Answers the stops and the frictions that stick at the end of a step of `h` seconds: changes all coordinates and velocities
@@ -115,8 +120,22 @@ pub fn strike<T: Real>(
     let Changes { still, rows, q: of_q, v: of_v } = changes;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     let is_struck = strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
-    let own = Changes { still, rows, q: of_q, v: of_v };
-    Ok(halt(equations, (h, own), (pushed, before), (t, [q, v]), inputs)? || is_struck)
+    let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
+    let has_halted = halt(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
+    let passes = pass(equations, At { t, q, v }, inputs)? != 0;
+    if passes {
+        // with the velocities of before the way of a step is known, and with those behind where they lead
+        for is_first in [true, false] {
+            let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
+            engage(equations, (h, own), (t, q, &mut *v), inputs)?;
+            if is_first {
+                let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
+                close(equations, own, (t, &mut *q, v), inputs);
+            }
+        }
+        hold(equations, At { t, q, v }, inputs, [of_q, rows]);
+    }
+    Ok(has_halted || is_struck || passes)
 }
 
 /// The same without friction.
@@ -128,7 +147,7 @@ fn strike_stops<T: Real>(
     inputs: &mut [T],
 ) -> Result<bool, Error> {
     let count = equations.info().stops.len();
-    let pushed = pushed & !all_frictions(equations.info());
+    let (pushed, locked) = (pushed & all_stops(equations.info()), locked(equations.info(), inputs));
     let now = Gaps::of(equations, At { t, q, v }, changes.still);
     let closed = pushed | those(count, |stop| number(&now.gap, stop) <= 0.0);
     if closed == 0 {
@@ -145,8 +164,9 @@ fn strike_stops<T: Real>(
     let ends = Ends { gap: [gap_before, now.gap], rate: [rate_before, now.rate] };
     let restitutions = restitutions(equations);
     let answered = Contacts::at(equations, (t, q), |contacts| {
-        let answer = Striking::new((&contacts, count), h, &ends, &restitutions, pushed).answer(closed)?;
-        let shifts = contacts.solve(answer.held, &answer.gap);
+        let striking = Striking::new((&contacts, count, locked), h, &ends, &restitutions, pushed);
+        let answer = striking.answer(closed)?;
+        let shifts = contacts.solve(answer.held | locked, &answer.gap);
         vectors::fill(changes.q, T::ZERO);
         vectors::fill(changes.v, T::ZERO);
         contacts.add(&zip(&answer.moved, &shifts, |moved, shift| moved + shift), changes.q);
@@ -173,6 +193,8 @@ struct Striking<'a, T> {
     contacts: &'a Contacts<'a, T>,
     /// The number of stops: behind them there may be frictions.
     count: usize,
+    /// The constraints of modes, which hold with any impulse.
+    locked: u32,
     restitutions: &'a Each<T>,
     ends: &'a Ends<T>,
     /// ġ − ġ₀
@@ -199,7 +221,7 @@ struct Answer<T> {
 
 impl<'a, T: Real> Striking<'a, T> {
     fn new(
-        (contacts, count): (&'a Contacts<'a, T>, usize),
+        (contacts, count, locked): (&'a Contacts<'a, T>, usize, u32),
         h: T,
         ends: &'a Ends<T>,
         restitutions: &'a Each<T>,
@@ -216,7 +238,7 @@ impl<'a, T: Real> Striking<'a, T> {
             core::array::from_fn(|stop| if has(pushed, stop) { T::ZERO } else { of(&rest, stop) * h });
         let [before, now] = &ends.rate;
         let change = zip(now, before, |now, before| now - before);
-        Self { contacts, count, restitutions, ends, change, rest, shift }
+        Self { contacts, count, locked, restitutions, ends, change, rest, shift }
     }
 
     /// The impulses at the stops that are closed, or that impulses close, one impact after the other; nothing where there
@@ -243,7 +265,7 @@ impl<'a, T: Real> Striking<'a, T> {
                     those(MOST_CONTACTS, |stop| has(closing & held, stop) && number(&impulses, stop) > 0.0);
                 return Some(Answer { held, impulses, moved, gap, is_impact });
             }
-            let taken = taken(contacts, closed, &self.change)?;
+            let taken = taken(contacts, (closed, self.locked), &self.change)?;
             let approach = if turn == 0 { self.approach() } else { rate };
             let thrown = self.rebounds(&approach);
             let is_last = turn + 1 == IN_SEQUENCE;
@@ -255,10 +277,11 @@ impl<'a, T: Real> Striking<'a, T> {
                     .any(|stop| is_hit(stop) && -number(&approach, stop) > number(&taken, stop));
             let short: Each<T> = core::array::from_fn(|stop| {
                 let later = if turn == 0 { of(&self.rest, stop) * of(&self.change, stop) } else { T::ZERO };
-                let target = if has(held, stop) { T::ZERO } else { of(&thrown, stop) + later };
+                let is_still = has(held | self.locked, stop);
+                let target = if is_still { T::ZERO } else { of(&thrown, stop) + later };
                 of(&rate, stop) - if target.to_f64() > 0.0 { target } else { T::ZERO }
             });
-            let (_, more) = contacts.complementary(closing, 0, &short)?;
+            let (_, more) = contacts.complementary(closing | self.locked, self.locked, &short)?;
             impulses = zip(&impulses, &more, |impulse, more| impulse + more);
         }
         None
@@ -300,6 +323,8 @@ pub fn begin<T: Real>(
 ) -> Result<(), Error> {
     let info = equations.info();
     let count = info.stops.len();
+    look(equations, at, inputs);
+    let locked = locked(info, inputs);
     let still = slide(equations, at, changes.still, inputs);
     equations.free_reactions(at, inputs, changes.q, changes.rows);
     let gaps = Gaps::of(equations, at, changes.q);
@@ -312,7 +337,10 @@ pub fn begin<T: Real>(
             return Err(Error::Behind { t: at.t.to_f64(), stop: name, gap: number(&gaps.gap, stop) });
         }
         let closed = those(count, |stop| number(&gaps.gap, stop) <= allowed(stop));
-        let taken = taken(&contacts, closed, &gaps.acceleration.map(|acceleration| h * acceleration));
+        let met = |row: usize| modes::allowed(size / BEHIND, contacts.slope(row));
+        are_met(info, at.t.to_f64(), locked, |row| number(&gaps.gap, row), met)?;
+        let taken =
+            taken(&contacts, (closed, locked), &gaps.acceleration.map(|acceleration| h * acceleration));
         let taken = taken.ok_or_else(|| impact(equations, at.t, closed))?;
         Ok(those(count, |stop| {
             let taken = number(&taken, stop);
@@ -347,8 +375,12 @@ fn slide<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, still: &[T], inpu
 }
 
 /// The change of the rate of each gap in a step by the force at its own stop; `change` is that of all rates without stops.
-fn taken<T: Real>(contacts: &Contacts<'_, T>, closed: u32, change: &Each<T>) -> Option<Each<T>> {
-    let (_, impulses) = contacts.complementary(closed, 0, change)?;
+fn taken<T: Real>(
+    contacts: &Contacts<'_, T>,
+    (closed, locked): (u32, u32),
+    change: &Each<T>,
+) -> Option<Each<T>> {
+    let (_, impulses) = contacts.complementary(closed | locked, locked, change)?;
     Some(core::array::from_fn(|stop| contacts.mobility(stop, stop) * of(&impulses, stop)))
 }
 

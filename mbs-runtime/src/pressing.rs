@@ -3,16 +3,17 @@
 use crate::Real;
 use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_CONTACTS, bit, those};
 use crate::equations::{At, Equations};
+use crate::modes::locked;
 use crate::sticking::frictions;
 
-/// The stops that are rested on, and the frictions that stick.
+/// The stops that are rested on, the frictions that stick, and the constraints of the modes that hold.
 pub(crate) fn held<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> u32 {
     let info = equations.info();
     let memory = |stop: usize| inputs.get(info.stops.get(stop)?.memory).map(|held| held.to_f64());
     let resting = those(info.stops.len(), |stop| memory(stop).is_some_and(|held| held > 0.5));
     let is_sticking = |memory: usize| inputs.get(memory).is_some_and(|it| it.to_f64().abs() < 0.5);
     let sticking = frictions(info).filter(|(_, memory)| is_sticking(*memory));
-    sticking.fold(resting, |held, (row, _)| held | bit(row))
+    sticking.fold(resting | locked(info, inputs), |held, (row, _)| held | bit(row))
 }
 
 /// Adds to accelerations what the stops do that are rested on, and to multipliers, if they are given; the pivot growth

@@ -14,6 +14,7 @@
 
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
 use crate::equations::{At, Equations};
+use crate::modes::{all_stops, locked, locks, note_multipliers};
 use crate::pressing::{held, pressed};
 use crate::{Error, Info, Real, vectors};
 
@@ -151,10 +152,11 @@ impl<T: Real> Holding<T> {
         [resting, sticking]: [u32; 2],
         [a, lambda]: [&mut [T]; 2],
     ) -> Option<Self> {
+        let bound = sticking | locked(equations.info(), inputs);
         equations.free_reactions(at, inputs, a, lambda);
         let free = Gaps::of(equations, at, a).acceleration;
         let solved = Contacts::at(equations, (at.t, at.q), |contacts| {
-            let (held, forces) = contacts.complementary(resting | sticking, sticking, &free)?;
+            let (held, forces) = contacts.complementary(resting | bound, bound, &free)?;
             contacts.add(&forces, a);
             contacts.react(&forces, lambda);
             let changes = contacts.rates(&forces);
@@ -227,6 +229,7 @@ pub(crate) fn decide<T: Real>(
             let force = found.forces.get(row).copied().unwrap_or_default();
             set(info, inputs, row, (0.0, force));
         }
+        note_multipliers(info, inputs, found.held, &found.forces);
         return Ok(Held { held: found.held, forces: found.forces });
     }
     Err(unanswered(info, at.t.to_f64(), still))
@@ -235,13 +238,16 @@ pub(crate) fn decide<T: Real>(
 /// Nothing answers the first of a set of stops and frictions.
 pub(crate) fn unanswered(info: &Info, t: f64, set: u32) -> Error {
     let row = set.trailing_zeros() as usize;
+    if let Some((_, lock)) = locks(info).find(|(of, _)| *of == row) {
+        return Error::Apart { t, constraint: lock.name, by: f64::NAN };
+    }
     match row.checked_sub(info.stops.len()).and_then(|at| info.frictions.get(at)) {
         Some(friction) => Error::Jammed { t, friction: friction.name },
         None => Error::Impact { t, stop: info.stops.get(row).map_or("", |stop| stop.name) },
     }
 }
 
-/// Sets the memories of the forces with which frictions stick to those in a state; `a` and `lambda` are to compute with.
+/// Sets the memories of the forces with which frictions stick, and modes hold, to those in a state; `a` and `lambda` are to compute with.
 pub fn hold<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
@@ -249,16 +255,18 @@ pub fn hold<T: Real>(
     [a, lambda]: [&mut [T]; 2],
 ) {
     let info = equations.info();
-    let sticking = held(equations, inputs) & all_frictions(info);
+    let holding = held(equations, inputs) & !all_stops(info);
     for (row, _) in frictions(info) {
         set(info, inputs, row, (direction(info, inputs, row), T::ZERO));
     }
-    if sticking == 0 {
+    note_multipliers(info, inputs, 0, &[T::ZERO; MOST_CONTACTS]);
+    if holding == 0 {
         return;
     }
     equations.free_reactions(at, inputs, a, lambda);
     let (_, forces) = pressed(equations, at, inputs, a, None);
-    for (row, _) in frictions(info).filter(|(row, _)| has(sticking, *row)) {
+    for (row, _) in frictions(info).filter(|(row, _)| has(holding, *row)) {
         set(info, inputs, row, (0.0, forces.get(row).copied().unwrap_or_default()));
     }
+    note_multipliers(info, inputs, holding, &forces);
 }

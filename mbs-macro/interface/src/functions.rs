@@ -70,8 +70,10 @@ pub enum Results {
     /// Of each of these what a unit impulse along it does to velocities and multipliers, and its slopes; then how all
     /// impulses change their rates, and the pivot growth.
     Contacts,
-    /// One number per memory that a clock sets.
+    /// One number per memory that a clock or a transition sets.
     Samples,
+    /// One number per transition.
+    Transitions,
     /// Two numbers per point.
     Points,
     /// One number.
@@ -95,7 +97,7 @@ pub enum Property {
     Whole,
     /// It exists only where a force depends on positions or velocities.
     Stiff,
-    /// It exists only where clocks sample.
+    /// It exists only where clocks sample or transitions happen.
     Sampled,
     /// It exists only where there are stops.
     Stopping,
@@ -209,6 +211,8 @@ functions! {
     Clocks = "clocks"() -> [result: Clocks], [Sampled, Whole];
     /// The values that every clock sets its memories to, one clock after the other.
     Samples = "samples"(Time, Positions, Velocities, Inputs) -> [result: Samples], [Counted, Sampled];
+    /// The values whose change of sign is that of a transition.
+    Transitions = "transitions"(Time, Positions, Velocities, Inputs) -> [result: Transitions], [Sampled];
     /// The values that the conditions of the parameters judge.
     Conditions = "conditions"() -> [result: Conditions], [Whole];
     /// The declared start, before guesses are corrected. Returns its time.

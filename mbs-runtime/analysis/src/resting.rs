@@ -213,6 +213,10 @@ impl<T: Real> Equations<T> for Resting<'_, T> {
         self.free.clock(clock)
     }
 
+    fn transitions(&self, at: At<'_, T>, inputs: &[T], values: &mut [T]) {
+        self.free.transitions(at, inputs, values);
+    }
+
     fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize) {
         self.free.sample(at, inputs, clock);
     }

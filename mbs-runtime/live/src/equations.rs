@@ -162,6 +162,10 @@ impl<T: Real> Equations<T> for Live<T> {
         times.as_chunks().0.get(clock).copied().unwrap_or([T::from_f64(f64::NAN); 2])
     }
 
+    fn transitions(&self, at: At<'_, T>, inputs: &[T], values: &mut [T]) {
+        self.call(FunctionId::Transitions, &Arguments { inputs: single(inputs), ..state(at) }, [values]);
+    }
+
     fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize) {
         let samples = self.declared_info().sampling.samples;
         let mut values = vec![T::from_f64(f64::NAN); samples.len()];
@@ -195,7 +199,7 @@ impl<T: Real> Described<T> for Live<T> {
         outputs: &mut [T],
     ) {
         let mut own = Vec::new();
-        let inputs = if self.declared_info().frictions.is_empty() {
+        let inputs = if !self.declared_info().holds() {
             inputs
         } else {
             own.extend_from_slice(inputs);

@@ -12,8 +12,9 @@ use mbs_codegen::Compiled;
 use mbs_codegen::compiled::{self, Count, Crossing};
 use mbs_runtime::__private::{Segment, Spline};
 use mbs_runtime::{
-    Constraint, DeclaredEvent, DeclaredFriction, DeclaredStop, Derivation, Dimension, Direction, Function,
-    Info, Knots, Operations, Pivot, Quantity, Sampling, Sketch, Switch,
+    Constraint, DeclaredEvent, DeclaredFriction, DeclaredLock, DeclaredMode, DeclaredStop,
+    DeclaredTransition, Derivation, Dimension, Direction, Function, Info, Knots, Modes, Operations, Pivot,
+    Quantity, Sampling, Sketch, Switch,
 };
 use mbs_symbolic::{Block, units};
 
@@ -110,8 +111,27 @@ fn info(compiled: &Compiled) -> Info {
         sampling(&compiled.sampling),
         leak(compiled.stops.iter().map(stop)),
         leak(compiled.frictions.iter().map(friction)),
+        modes(compiled),
         leak(compiled.counts().into_iter().map(|count| function(compiled, &count))),
     )
+}
+
+fn modes(compiled: &Compiled) -> Modes {
+    let mode = |it: &compiled::Mode| DeclaredMode { name: text(&it.name), memory: it.memory };
+    let lock = |it: &compiled::Lock| {
+        let (name, formula) = (text(&it.name), text(&it.formula));
+        DeclaredLock { name, mode: it.mode, held: it.held, formula }
+    };
+    let transition = |it: &compiled::Transition| DeclaredTransition {
+        condition: text(&it.text),
+        is_rising: it.is_rising,
+        memory: it.memory,
+    };
+    Modes {
+        modes: leak(compiled.modes.iter().map(mode)),
+        locks: leak(compiled.locks.iter().map(lock)),
+        transitions: leak(compiled.transitions.iter().map(transition)),
+    }
 }
 
 fn sampling(compiled::Sampling { memories, clocks, samples }: &compiled::Sampling) -> Sampling {

@@ -31,16 +31,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         // what lies behind was computed with the memories of before
         self.inputs_mut();
-        let Self { dynamics, inputs, now, all, .. } = self;
-        dynamics.complete(now.t, &now.q, &now.v, all);
-        let [q, v] = all;
-        let at = At { t: now.t, q: q.as_ref(), v: v.as_ref() };
-        let sampling = dynamics.equations().info().sampling;
-        let mut present = dynamics.inputs_at(now.t, inputs);
-        dynamics.with_inputs(&mut present, |present| {
-            sample_at(dynamics.equations(), at, present);
-            dynamics.with_inputs(inputs, |own| sampling.set_memories(own, present));
-        });
+        self.with_memories(|equations, at, inputs| sample_at(equations, at, inputs));
         self.sampled = Some(self.now.t);
     }
 

@@ -104,7 +104,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let Happened { all, rising, judged, turned, is_set, .. } = self.happened_before;
         let at_events = if is_set { all | judged } else { judged };
         let mut kept = Happened::default();
-        let stops = gaps::watched(0, self.dynamics.equations().info().contacts());
+        let stops = gaps::watched(0, self.dynamics.equations().info());
         for (index, bit) in stops.chain(bits(watched.count)).filter(|(_, bit)| at_events & bit != 0) {
             let is_rising = rising & bit != 0;
             let Beginning { value, rounding, is_zero, .. } = self.beginning(index, watched);

@@ -164,12 +164,13 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 impl<D: Dynamics> Watched<'_, D> {
     /// The places of the values, and those of stops, with their bits.
     pub(super) fn bits(&self, dynamics: &D) -> impl Iterator<Item = (usize, u64)> + use<D> {
-        gaps::watched(self.count, dynamics.equations().info().contacts())
+        gaps::watched(self.count, dynamics.equations().info())
     }
 
     /// Which changes of sign of a value count.
     pub(super) fn direction(&self, dynamics: &D, index: usize) -> Option<Direction> {
-        match gaps::stop_in(dynamics.equations(), index) {
+        let equations = dynamics.equations();
+        match gaps::stop_in(equations, index).or(gaps::transition_in(equations, index)) {
             Some(_) => Some(gaps::DIRECTION),
             None => (self.direction)(index),
         }
@@ -188,6 +189,9 @@ impl<D: Dynamics> Watched<'_, D> {
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
         if let Some(stop) = gaps::stop_in(dynamics.equations(), index) {
             return gaps::value(dynamics, inputs, at, stop);
+        }
+        if let Some(transition) = gaps::transition_in(dynamics.equations(), index) {
+            return gaps::value_of_transition(dynamics, inputs, at, transition);
         }
         (self.values)(dynamics, inputs, at, self.room);
         self.room.get(index).copied().unwrap_or(D::Real::from_f64(f64::NAN))

@@ -4,13 +4,13 @@ use super::control::Tolerances;
 use super::dynamics::Dynamics;
 use super::effort::Effort;
 use super::jump::{is_idle, margins};
-use crate::Real;
 use crate::contact::{Each, Gaps, MOST_CONTACTS, bit, has, those};
 use crate::equations::{At, Equations};
 use crate::info::{Direction, MOST_EVENTS};
 use crate::pressing::held;
 use crate::sticking::{all_frictions, direction};
 use crate::vectors;
+use crate::{Info, Real, modes};
 
 /// The memory of a run of its stops.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +60,38 @@ pub(super) const fn place(stop: usize) -> usize {
 /// The stop that is watched in a place, if it is one.
 pub(super) fn stop_in<T: Real>(equations: &dyn Equations<T>, place: usize) -> Option<usize> {
     let stop = (MOST_EVENTS - 1).checked_sub(place)?;
-    (stop < equations.info().contacts()).then_some(stop)
+    (stop < equations.info().watched_contacts()).then_some(stop)
+}
+
+/// The transition that is watched in a place, if it is one.
+pub(super) fn transition_in<T: Real>(equations: &dyn Equations<T>, place: usize) -> Option<usize> {
+    let transition = (MOST_EVENTS - 1 - MOST_CONTACTS).checked_sub(place)?;
+    (transition < equations.info().modes.transitions.len()).then_some(transition)
+}
+
+/// The value of a transition, which falls where its condition begins to hold.
+pub(super) fn value_of_transition<D: Dynamics>(
+    dynamics: &D,
+    inputs: &D::Inputs,
+    at: At<'_, D::Real>,
+    transition: usize,
+) -> D::Real {
+    let equations = dynamics.equations();
+    let mut inputs = dynamics.inputs_at(at.t, inputs);
+    let values = dynamics.with_inputs(&mut inputs, |inputs| modes::values(equations, at, inputs));
+    let value = values.get(transition).copied().unwrap_or_default();
+    let is_rising = equations.info().modes.transitions.get(transition).is_some_and(|it| it.is_rising);
+    if is_rising { -value } else { value }
+}
+
+/// The set of what a run watches by itself: stops, frictions, and behind all contacts transitions.
+pub(super) fn of_run(info: &Info) -> u32 {
+    those(info.watched_contacts(), |_| true) | transitions(info)
+}
+
+/// The set of all transitions.
+pub(super) fn transitions(info: &Info) -> u32 {
+    those(info.modes.transitions.len(), |_| true) << MOST_CONTACTS
 }
 
 /// The watched value of a stop: its gap while it is open, the force at it while it is rested on; and of a friction: its speed
@@ -89,9 +120,9 @@ pub(super) fn value<D: Dynamics>(
     })
 }
 
-/// The stops whose events are among these.
-pub(super) fn among(happened: u64, count: usize) -> u32 {
-    those(count, |stop| happened & watched_of(bit(stop)) != 0)
+/// What a run watches by itself whose events are among these.
+pub(super) fn among(happened: u64, info: &Info) -> u32 {
+    happened.reverse_bits() as u32 & of_run(info)
 }
 
 /// The bits of a set of stops among those of what is watched, from the last one down.
@@ -99,9 +130,11 @@ pub(super) fn watched_of(stops: u32) -> u64 {
     u64::from(stops).reverse_bits()
 }
 
-/// The places of what is watched: values, and behind them stops from the last place on.
-pub(super) fn watched(count: usize, stops: usize) -> impl Iterator<Item = (usize, u64)> {
-    bits(count).chain((0..stops).map(|stop| (place(stop), watched_of(bit(stop)))))
+/// The places of what is watched: values, and behind them what a run watches by itself from the last place on.
+pub(super) fn watched(count: usize, info: &Info) -> impl Iterator<Item = (usize, u64)> + use<> {
+    let of_run = of_run(info);
+    let rows = (0..u32::BITS as usize).filter(move |row| has(of_run, *row));
+    bits(count).chain(rows.map(|row| (place(row), watched_of(bit(row)))))
 }
 
 /// A gap that opens is no event, nor is a force that grows.

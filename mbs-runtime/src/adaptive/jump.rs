@@ -4,6 +4,7 @@ use super::dynamics::Dynamics;
 use super::gaps::Stopping;
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, those};
 use crate::equations::At;
+use crate::modes::{self, all_stops, are_met, locked};
 use crate::pressing::{held, pressed};
 use crate::sticking::{
     Held, Limits, Undecided, all_frictions, decide, direction, frictions, set, unanswered,
@@ -58,8 +59,11 @@ impl<D: Dynamics> Jump<'_, D> {
     }
 
     /// The stops that are rested on and pull and the frictions that hold more than they can or slide against their direction,
-    /// the stops that push, and open ones that are closed and do not open.
-    pub fn look(&mut self, size: f64) -> [u32; 3] {
+    /// the stops that push, open ones that are closed and do not open; and the constraints of modes that are not met, with
+    /// transitions whose conditions have begun to hold.
+    pub fn look(&mut self, size: f64) -> [u32; 4] {
+        let locked = locked(self.dynamics.equations().info(), self.inputs);
+        let entered = if locked == 0 { 0 } else { self.hit(locked, size) };
         let slopes = self.slopes();
         let Self { dynamics, inputs, t, q, v, a, slowest } = self;
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
@@ -69,7 +73,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let gaps = Gaps::of(equations, at, a.as_ref());
         let count = equations.info().stops.len();
         let info = equations.info();
-        let pulls = those(info.contacts(), |row| {
+        let pulls = those(info.watched_contacts(), |row| {
             let against = direction(info, inputs, row) * number(&gaps.rate, row);
             if has(held, row) { number(&margins, row) < 0.0 } else { against < -*slowest }
         });
@@ -78,7 +82,8 @@ impl<D: Dynamics> Jump<'_, D> {
             let least = CLOSED * size * number(&slopes, stop);
             !has(held, stop) && number(&gaps.gap, stop) <= least && number(&gaps.rate, stop) <= 0.0
         });
-        [pulls, pushes, closed]
+        let (due, _) = modes::due(equations, at, inputs);
+        [pulls, pushes, closed, entered | due << MOST_CONTACTS]
     }
 
     /// Does something with the responses here.
@@ -193,10 +198,11 @@ impl<D: Dynamics> Jump<'_, D> {
     /// The gaps, with accelerations that the stops of a set have a part in which are closed and still.
     fn pressed(&mut self, closed: u32, size: f64) -> Result<Gaps<D::Real>, Error> {
         let mut gaps = self.gaps();
+        let locked = locked(self.dynamics.equations().info(), self.inputs);
         let still = self.still(&gaps.acceleration, size);
         let resting = those(self.count(), |stop| has(closed, stop) && is_still(&gaps.rate, &still, stop));
         let solved = self.contacts(|contacts| {
-            let (_, forces) = contacts.complementary(resting, 0, &gaps.acceleration)?;
+            let (_, forces) = contacts.complementary(resting | locked, locked, &gaps.acceleration)?;
             Some(contacts.rates(&forces))
         });
         let change = solved.flatten().ok_or_else(|| self.unanswered(closed))?;
@@ -230,7 +236,11 @@ impl<D: Dynamics> Jump<'_, D> {
             number(&gaps.gap, stop) <= size * number(&slopes, stop) + soon
         };
         let friction = all_frictions(self.dynamics.equations().info());
-        let closed = (held | reached) & !friction | those(count, is_closed);
+        let info = self.dynamics.equations().info();
+        let locked = locked(info, self.inputs);
+        let allowed = |row: usize| modes::allowed(stopping.size, number(&slopes, row));
+        are_met(info, self.t.to_f64(), locked, |row| number(&gaps.gap, row), allowed)?;
+        let closed = (held | reached) & all_stops(info) | those(count, is_closed);
         let still = self.still(&gaps.acceleration, stopping.size);
         let (mut impulses, mut flight) = ([D::Real::default(); MOST_CONTACTS], f64::INFINITY);
         let mut is_impact = false;
@@ -239,7 +249,7 @@ impl<D: Dynamics> Jump<'_, D> {
             let moves = |stop: usize| !is_still(&rate, &still, stop);
             let closing =
                 those(count, |stop| has(closed, stop) && !(number(&rate, stop) > 0.0 && moves(stop)));
-            if those(count, |stop| has(closing, stop) && moves(stop)) == 0 {
+            if those(MOST_CONTACTS, |row| has(closing | locked, row) && moves(row)) == 0 {
                 break;
             }
             // an accumulation within one moment ends as others do
@@ -256,16 +266,18 @@ impl<D: Dynamics> Jump<'_, D> {
         let stuck = core::mem::take(&mut stopping.stuck);
         let rests = |stop: usize| is_still(&rates, &still, stop) || has(stuck, stop);
         let resting = those(count, |stop| has(closed & !pulling, stop) && rests(stop));
+        let left = |row: usize| JUMPS * number(&still, row) + modes::left_of(number(&gaps.rate, row).abs());
+        are_met(info, self.t.to_f64(), locked, |row| number(&rates, row), left)?;
         let found = if is_impact { 0 } else { reached };
         let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);
         let halted = those(MOST_CONTACTS, |row| has(friction & found & !held, row) && is_halted(row));
         let [not_moving, leaving] = self.slide(halted, &rates, &still);
-        self.clear(resting, &gaps.gap, true);
+        self.clear(resting | locked, &gaps.gap, true);
         let breaking = found & held & !stuck | leaving;
         let Held { held, .. } = self.decide(Undecided { resting, still: not_moving, breaking })?;
         // what friction does not hold keeps its velocity: at a dead centre it would be that of the whole mechanism
         let rates = self.gaps().rate;
-        self.clear(resting | held & not_moving, &rates, false);
+        self.clear(resting | locked | held & not_moving, &rates, false);
         stopping.kept = resting & stuck & !held;
         let held = held | resting & stuck;
         let closed = closed | not_moving;
@@ -306,7 +318,7 @@ impl<D: Dynamics> Jump<'_, D> {
         (mut settled, stopping): (u32, &mut Stopping),
     ) -> Result<(Each<D::Real>, f64), Error> {
         let equations = self.dynamics.equations();
-        let count = equations.info().stops.len();
+        let (count, locked) = (equations.info().stops.len(), locked(equations.info(), self.inputs));
         let mut laws = [D::Real::default(); 2 * MOST_CONTACTS];
         if let Some(laws) = laws.get_mut(..2 * count) {
             equations.stop_laws(laws);
@@ -321,7 +333,7 @@ impl<D: Dynamics> Jump<'_, D> {
             });
             let before = self.v.clone();
             let solved = self.contacts(|contacts| {
-                let (_, impulses) = contacts.complementary(closed, 0, &b)?;
+                let (_, impulses) = contacts.complementary(closed | locked, locked, &b)?;
                 let mut after = before.clone();
                 contacts.add(&impulses, after.as_mut());
                 Some((impulses, after))

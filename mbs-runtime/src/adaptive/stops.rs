@@ -5,13 +5,14 @@
 //! at: until then the last step is known with the motion that it had.
 
 use super::events::{Happened, Watched};
-use super::gaps::{Stopping, among, stop_in, watched_of};
+use super::gaps::{Stopping, among, of_run, stop_in, watched_of};
 use super::jump::{CLOSED, Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::contact::{MOST_CONTACTS, bit, has, number, those};
+use crate::equations::{At, Equations};
 use crate::pressing::held;
 use crate::sticking::{all_frictions, direction, frictions, set};
-use crate::{Error, Real};
+use crate::{Error, Real, modes};
 
 /// A start is behind a stop by more than this share of the size of the coordinates.
 const BEHIND: f64 = 1e-9;
@@ -25,14 +26,14 @@ const SHORT: f64 = 1e-4;
 const MOST_LOOKS: u8 = 8;
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
-    /// The number of stops and of frictions that stick.
-    fn stop_count(&self) -> usize {
-        self.dynamics.equations().info().contacts()
+    /// True if velocities or memories may jump.
+    fn jumps(&self) -> bool {
+        self.dynamics.equations().info().jumps()
     }
 
     /// Looks for the first stop that was reached in the last step, where nothing else is watched.
     pub(super) fn look_for_stops(&mut self) -> Result<(), Error> {
-        if self.stop_count() == 0 {
+        if !self.jumps() {
             return Ok(());
         }
         let mut watched = Watched {
@@ -47,17 +48,17 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// Notes the stops at which the last step ended.
     pub(super) fn reach_stops(&mut self) {
-        self.stopping.reached |= among(self.happened.due, self.stop_count());
+        self.stopping.reached |= among(self.happened.due, self.dynamics.equations().info());
     }
 
     /// The events at stops are no news where a program asks for its own.
     pub(super) fn forget_stops(&mut self) {
-        self.happened.due &= !watched_of(those(self.stop_count(), |_| true));
+        self.happened.due &= !watched_of(of_run(self.dynamics.equations().info()));
     }
 
     /// Nor is it where a stop is left.
     pub(super) fn forget_releases(&mut self) {
-        if self.stop_count() > 0 {
+        if self.jumps() {
             let held = self.with_jump(|jump| held(jump.dynamics.equations(), jump.inputs));
             self.happened.due &= !watched_of(held);
         }
@@ -69,17 +70,16 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::Impact`].
     pub(super) fn look_at_rests(&mut self) -> Result<(), Error> {
-        let count = self.stop_count();
-        if count == 0 {
+        if !self.jumps() {
             return Ok(());
         }
         self.stopping.effort = self.effort;
         let Stopping { kept, size, .. } = self.stopping;
-        let [pulled, pushing, closed] = self.with_jump(|jump| jump.look(size));
+        let [pulled, pushing, closed, begun] = self.with_jump(|jump| jump.look(size));
         self.stopping.kept = kept & !pushing;
         // what a jump has looked at already leaves its event
-        let known = among(self.happened.all | self.happened.judged, count);
-        let reached = pulled & !kept | closed & !known;
+        let known = among(self.happened.all | self.happened.judged, self.dynamics.equations().info());
+        let reached = pulled & !kept | closed & !known | begun;
         if reached == 0 { Ok(()) } else { self.jump_at(reached) }
     }
 
@@ -97,10 +97,11 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::Behind`], [`Error::Impact`].
     pub(super) fn touch(&mut self) -> Result<(), Error> {
-        if self.stop_count() == 0 {
+        if !self.jumps() {
             return Ok(());
         }
         let (t, stops) = (self.now.t.to_f64(), self.dynamics.equations().info().stops);
+        self.with_memories(|equations, at, inputs| modes::look(equations, at, inputs));
         let size = self.with_jump(|jump| jump.size());
         self.stopping.size = self.stopping.size.max(size);
         let size = BEHIND * self.stopping.size;
@@ -122,8 +123,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             let gaps = jump.gaps().gap.map(Real::to_f64);
             those(stops.len(), |stop| gaps.get(stop) <= allowed.get(stop))
         });
-        let has_friction = self.dynamics.equations().info().contacts() > stops.len();
-        if touched == 0 && !has_friction { Ok(()) } else { self.jump_at(touched) }
+        // frictions stick, and modes hold
+        let may_hold = self.dynamics.equations().info().contacts() > stops.len();
+        if touched == 0 && !may_hold { Ok(()) } else { self.jump_at(touched) }
     }
 
     /// Goes back to where the last step began if that was too long to see what gaps do in it; true if it does.
@@ -181,7 +183,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Leads the end of a step back to the stops that are rested on, as joints are led back to their constraints. One whose
     /// velocity jumps, as a floor does that a table moves, hits what rests on it.
     pub(super) fn stay(&mut self) {
-        if self.stop_count() == 0 {
+        if !self.jumps() {
             return;
         }
         let size = self.stopping.size;
@@ -217,10 +219,29 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         })
     }
 
+    /// Does something that sets memories in the present state.
+    pub(super) fn with_memories<R>(
+        &mut self,
+        what: impl FnOnce(&dyn Equations<D::Real>, At<'_, D::Real>, &mut [D::Real]) -> R,
+    ) -> R {
+        let Self { dynamics, inputs, now, all, .. } = self;
+        dynamics.complete(now.t, &now.q, &now.v, all);
+        let [q, v] = all;
+        let at = At { t: now.t, q: q.as_ref(), v: v.as_ref() };
+        let sampling = dynamics.equations().info().sampling;
+        let mut present = dynamics.inputs_at(now.t, inputs);
+        dynamics.with_inputs(&mut present, |present| {
+            let result = what(dynamics.equations(), at, present);
+            dynamics.with_inputs(inputs, |own| sampling.set_memories(own, present));
+            result
+        })
+    }
+
     /// The jump at stops that are reached: those whose gap has closed, and those that pull.
     fn jump_at(&mut self, reached: u32) -> Result<(), Error> {
         // what lies behind was computed with the memories of before
         self.inputs_mut();
+        let passed = self.with_memories(|equations, at, inputs| modes::pass(equations, at, inputs))?;
         let (longest, mut stopping) = (self.effort.longest, self.stopping);
         let found = self.with_jump(|jump| {
             let held = held(jump.dynamics.equations(), jump.inputs);
@@ -260,9 +281,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         *before = now.clone();
         self.between.begin(false);
         let Happened { all, rising, due, judged, turned, .. } = self.happened;
-        let ours = watched_of(those(dynamics.equations().info().contacts(), |_| true));
+        let ours = watched_of(of_run(dynamics.equations().info()));
         // an open stop that is closed still is left from its event; the force at another one has not been looked at
-        let left = watched_of(closed & !now_held);
+        let left = watched_of(closed & !now_held | passed << MOST_CONTACTS);
         self.happened = Happened {
             all: all & !ours | left,
             rising: rising & !ours,

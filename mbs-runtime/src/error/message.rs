@@ -126,6 +126,17 @@ impl fmt::Display for Error {
                  that jams, as its coefficient times its reaction grows with itself",
                 t = Shown(t)
             ),
+            Self::Modes { what, mode } => write!(
+                f,
+                "{what} does not see what `{mode}` changes; runs do, with constant steps and to a tolerance by an explicit pair"
+            ),
+            Self::Apart { t, constraint, by } => write!(
+                f,
+                "at t = {t} s a mode holds whose constraint `{constraint}` is off by {} (SI units): enter it where its joints \
+                 close, or take a `rate` for what holds anywhere",
+                Plain(by),
+                t = Shown(t)
+            ),
             Self::Behind { t, stop, gap } => write!(
                 f,
                 "at t = {t} s this position is behind the stop `{stop}`: its gap is {} (SI units); a mechanism starts and rests \

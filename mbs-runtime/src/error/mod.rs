@@ -162,6 +162,22 @@ pub enum Error {
         /// The friction.
         friction: &'static str,
     },
+    /// Constraints that come and go, for what does not see it.
+    Modes {
+        /// The name of a method or an analysis.
+        what: &'static str,
+        /// The first mode, or the condition of the first transition.
+        mode: &'static str,
+    },
+    /// A mode that holds where its constraints do not.
+    Apart {
+        /// The time in s.
+        t: f64,
+        /// The constraint.
+        constraint: &'static str,
+        /// Φ in SI units, or Φ̇ where it cannot become 0.
+        by: f64,
+    },
     /// A state behind a stop.
     Behind {
         /// The time in s.

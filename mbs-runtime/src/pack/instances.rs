@@ -224,7 +224,7 @@ pub(super) fn steps_to_sample<
     members: &[S; N],
     now: &Moment<M, N>,
 ) -> u64 {
-    if M::INFO.contacts() > 0 {
+    if M::INFO.jumps() {
         return 1;
     }
     if M::INFO.sampling.clocks == 0 {
@@ -245,7 +245,7 @@ pub(super) fn push<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M, 
     now: &mut Moment<M, N>,
 ) -> Option<[u32; N]> {
     let mut all = [0; N];
-    if M::INFO.contacts() == 0 {
+    if !M::INFO.jumps() {
         return Some(all);
     }
     for lane in 0..N {
@@ -266,7 +266,7 @@ pub(super) fn strike<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M
     before: &Moment<M, N>,
     (pushed, now): ([u32; N], &mut Moment<M, N>),
 ) -> bool {
-    if M::INFO.contacts() == 0 {
+    if !M::INFO.jumps() {
         return true;
     }
     let (mut struck, mut memories) = (*now, *instances);

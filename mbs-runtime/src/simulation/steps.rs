@@ -33,7 +33,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// [`step`](Self::step), always inlined into its caller.
     #[inline(always)]
     fn inlined_step(&mut self) -> Result<(), Error> {
-        if M::INFO.contacts() == 0 {
+        if !M::INFO.jumps() {
             self.step_between()?;
         } else {
             self.step_to_stops(Self::step_between)?;
@@ -135,7 +135,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         let t_next = self.next_time();
         let Self { mechanism, inputs, gains, step, watch, .. } = &*self;
         if is_fused_for::<M, X>()
-            && M::INFO.contacts() == 0
+            && !M::INFO.jumps()
             && let Some((fused, reactions)) =
                 mechanism.fused_step_with_reactions::<X>(&self.present(), inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm

@@ -147,7 +147,7 @@ impl RunOptions {
         let has_gains = is_fed_back && stabilization != Some(Stabilization::Projection);
         let declared_gain = |gain: Option<f64>| gain.filter(|_| has_gains);
         // impacts are found by runs to a tolerance, unless a method is declared that takes constant steps
-        let for_stops = model.declares_scheme() && !model.scheme().is_adaptive() && info.contacts() > 0;
+        let for_stops = model.declares_scheme() && !model.scheme().is_adaptive() && info.jumps();
         let end = self.value("end", TIME)?.or(end_of_clock);
         let settings = Settings {
             step: self.value("step", TIME)?.unwrap_or(defaults.step),

@@ -132,7 +132,7 @@ impl Settings {
         let asks_for_steps = self.other.is_some()
             || self.scheme.is_some_and(|scheme| !scheme.is_adaptive())
             || self.stabilization.is_some_and(|way| way != Stabilization::Projection);
-        let hits = info.contacts() > 0 && !asks_for_steps;
+        let hits = info.jumps() && !asks_for_steps;
         let is_adaptive =
             self.until.is_some() || hits || self.other.is_some_and(|other| !other.is_constant());
         self.tolerances.or(is_adaptive.then(Tolerances::default))

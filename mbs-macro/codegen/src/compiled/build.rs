@@ -3,7 +3,7 @@
 use super::derivation::readable;
 use super::{
     Choices, Compiled, Condition, Constraint, Derivation, Event, Feedback, Friction, FunctionId, Input, Link,
-    Pivot, Sampling, Sketch, SketchBody, Stop, Written,
+    Lock, Mode, Pivot, Sampling, Sketch, SketchBody, Stop, Transition, Written,
 };
 use crate::derive::Equations;
 use crate::model::{self, Block, Direction, Model};
@@ -43,6 +43,9 @@ impl Compiled {
             sampling: sampling(&model),
             stops: model.stops.iter().map(|stop| stop_of(&model, stop)).collect(),
             frictions: model.frictions.iter().map(|friction| friction_of(&model, friction)).collect(),
+            modes: model.modes.iter().map(Mode::from).collect(),
+            locks: model.locks.iter().map(|lock| lock_of(&model, lock)).collect(),
+            transitions: model.transitions.iter().map(Transition::from).collect(),
             jacobian: plan.phi_q_places.clone(),
             masses: plan.mass_places.clone(),
             pivots: pivots(&model, &plan.pivot_names),
@@ -104,6 +107,25 @@ fn friction_of(model: &Model, friction: &model::Friction) -> Friction {
         memory: friction.memory,
         limits: [sliding, sticking],
         span: friction.span,
+    }
+}
+
+fn lock_of(model: &Model, lock: &model::Lock) -> Lock {
+    let of_rate = model.arena.is_zero(lock.contact.gap);
+    let formula = readable(&model.arena, if of_rate { lock.contact.rate } else { lock.contact.gap });
+    Lock { name: lock.name.clone(), mode: lock.mode, held: lock.held, formula, span: lock.span }
+}
+
+impl From<&model::Mode> for Mode {
+    fn from(mode: &model::Mode) -> Self {
+        Self { name: mode.name.to_string(), memory: mode.memory }
+    }
+}
+
+impl From<&model::Transition> for Transition {
+    fn from(transition: &model::Transition) -> Self {
+        let model::Transition { text, is_rising, memory, .. } = transition;
+        Self { text: text.clone(), is_rising: *is_rising, memory: *memory }
     }
 }
 
@@ -176,8 +198,9 @@ fn pivots(model: &Model, pivots: &[(Option<usize>, Option<usize>)]) -> Vec<Pivot
 }
 
 fn sampling(model: &Model) -> Sampling {
-    let clocks = model.clocks.iter().enumerate();
-    let samples = clocks.flat_map(|(clock, it)| it.sets.iter().map(move |(memory, _)| [clock, *memory]));
+    let sets = model.clocks.iter().map(|clock| &clock.sets);
+    let sets = sets.chain(model.transitions.iter().map(|transition| &transition.sets)).enumerate();
+    let samples = sets.flat_map(|(clock, sets)| sets.iter().map(move |(memory, _)| [clock, *memory]));
     Sampling { memories: model.memories, clocks: model.clocks.len(), samples: samples.collect() }
 }
 

@@ -28,6 +28,38 @@ pub struct Friction {
     pub span: Span,
 }
 
+/// Constraints that come and go together.
+pub struct Mode {
+    /// Its name.
+    pub name: String,
+    /// The place among the inputs of the memory that is 1 while it holds.
+    pub memory: usize,
+}
+
+/// A constraint of a mode.
+pub struct Lock {
+    /// Its name.
+    pub name: String,
+    /// The place among the inputs of the memory of its mode.
+    pub mode: usize,
+    /// That of the memory of its multiplier.
+    pub held: usize,
+    /// Φ, or Φ̇ of an equation between rates, unless it is too long to read.
+    pub formula: String,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// What is set where a condition begins to hold; see [`FunctionId::Transitions`](super::FunctionId::Transitions).
+pub struct Transition {
+    /// The condition as it was written.
+    pub text: String,
+    /// True if it holds where the value is positive.
+    pub is_rising: bool,
+    /// The place among the inputs of the memory of the sign that the value had last.
+    pub memory: usize,
+}
+
 impl Compiled {
     /// The number of results of [`FunctionId::Contacts`](super::FunctionId::Contacts).
     pub(super) fn contact_count(&self) -> usize {
@@ -42,8 +74,13 @@ impl Compiled {
         self.stops.iter().map(|stop| stop.memory).chain(frictions)
     }
 
-    /// The number of stops and of frictions that stick.
+    /// The number of stops, of frictions that stick and of constraints of modes.
     pub fn contacts(&self) -> usize {
-        self.stops.len() + self.frictions.len()
+        self.stops.len() + self.frictions.len() + self.locks.len()
+    }
+
+    /// True if velocities or memories may jump at the end of a step.
+    pub fn jumps(&self) -> bool {
+        self.contacts() > 0 || !self.transitions.is_empty()
     }
 }

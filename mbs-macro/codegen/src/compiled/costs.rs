@@ -20,7 +20,7 @@ impl Compiled {
     pub fn functions(&self) -> impl Iterator<Item = FunctionId> {
         let is_there = |function: &FunctionId| {
             (self.has_stiffness || !function.is(Property::Stiff))
-                && (self.sampling.clocks > 0 || !function.is(Property::Sampled))
+                && (self.sampling.clocks + self.transitions.len() > 0 || !function.is(Property::Sampled))
                 && (self.contacts() > 0 || !function.is(Property::Stopping))
         };
         FunctionId::all().filter(is_there).filter(|function| !function.is(Property::Adaptive))

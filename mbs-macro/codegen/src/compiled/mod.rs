@@ -61,7 +61,7 @@ use crate::diagnostics::Diagnostic;
 pub use crate::inputs::Input;
 pub use crate::plan::{FusedStep, Kinds, Knots};
 pub use crate::quantity::{Comparison, Crossing, Quantity, Setting};
-pub use contacts::{Friction, Stop};
+pub use contacts::{Friction, Lock, Mode, Stop, Transition};
 pub use costs::Count;
 pub use derivation::{Derivation, Elimination, Formula};
 pub use mbs_interface::{Argument, FunctionId, Property, Results};
@@ -128,6 +128,12 @@ pub struct Compiled {
     pub stops: Vec<Stop>,
     /// Friction that sticks.
     pub frictions: Vec<Friction>,
+    /// The modes.
+    pub modes: Vec<Mode>,
+    /// Their constraints.
+    pub locks: Vec<Lock>,
+    /// What enters and leaves them, and sets memories.
+    pub transitions: Vec<Transition>,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,
     /// Row and column of every result of [`FunctionId::Mass`], each pair of coordinates once.
@@ -190,7 +196,8 @@ pub struct Sampling {
     pub memories: usize,
     /// The number of clocks.
     pub clocks: usize,
-    /// The clock and the memory, by its place among the inputs, of every result of [`FunctionId::Samples`].
+    /// The clock and the memory, by its place among the inputs, of every result of [`FunctionId::Samples`]. Transitions
+    /// count behind the clocks.
     pub samples: Vec<[usize; 2]>,
 }
 
@@ -374,6 +381,7 @@ impl Compiled {
             Results::Switches => self.switches.len(),
             Results::Clocks => 2 * self.sampling.clocks,
             Results::Samples => self.sampling.samples.len(),
+            Results::Transitions => self.transitions.len(),
             Results::Stops => 2 * self.stops.len(),
             Results::Gaps => 3 * self.contacts(),
             Results::Limits => 2 * self.frictions.len(),

@@ -41,6 +41,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::State { .. }
         | ItemKind::Coordinate { .. }
         | ItemKind::Memory { .. }
+        | ItemKind::Mode { .. }
         | ItemKind::Let { .. }
         | ItemKind::Binding { .. } => quantities(item).into_iter().map(ToString::to_string).collect(),
         ItemKind::Constraint { name, .. }
@@ -73,6 +74,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Point { .. }
         | ItemKind::Rate { .. }
         | ItemKind::Every(_)
+        | ItemKind::When(_)
         | ItemKind::Set(_)
         | ItemKind::Start { .. }
         | ItemKind::Require { .. }
@@ -90,6 +92,7 @@ pub fn quantities(item: &Item) -> Vec<&Ident> {
         | ItemKind::State { name, .. }
         | ItemKind::Coordinate { name, .. }
         | ItemKind::Memory { name, .. }
+        | ItemKind::Mode { name, .. }
         | ItemKind::Let { name, .. }
         | ItemKind::Binding { name, .. } => vec![name],
         ItemKind::Body { coordinates, .. } => coordinates.iter().map(|coordinate| &coordinate.name).collect(),
@@ -140,6 +143,15 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
             in_formula(&mut every.period, visit);
             every.offset.iter_mut().for_each(|offset| in_formula(offset, visit));
             every.sets.iter_mut().for_each(|set| in_set(set, visit));
+        }
+        ItemKind::When(when) => {
+            in_condition(&mut when.condition, visit);
+            when.sets.iter_mut().for_each(|set| in_set(set, visit));
+        }
+        ItemKind::Mode { name, value, rows } => {
+            visit(Mention::Name(name));
+            value.iter_mut().for_each(|value| in_formula(value, visit));
+            rows.iter_mut().for_each(|row| visit(Mention::Name(row)));
         }
         ItemKind::Set(set) => in_set(set, visit),
         ItemKind::Require { of, condition } => {

@@ -16,7 +16,7 @@ impl Resolver<'_> {
     pub(super) fn declare_joint(&mut self, joint: &Joint) {
         let declared = self.rows_of(joint);
         for row in &declared {
-            self.declare_row(&row_name(joint, row), false);
+            self.declare_row(&row_name(joint, row), &joint.name, false);
         }
         let multiplier = |row| {
             let known = self.scope.rows.get(&row_name(joint, row).to_string())?;
@@ -65,7 +65,7 @@ impl Resolver<'_> {
                 let (doc, span) = (doc.to_owned(), joint.name.span());
                 let (source, is_drive) = (source(joint), false);
                 let rate = None;
-                self.constraints.push(Constraint { name, source, doc, span, is_drive, rate, phi, dimension });
+                self.push_row(Constraint { name, source, doc, span, is_drive, rate, phi, dimension });
             }
         }
     }

@@ -36,7 +36,7 @@ impl<'a> Resolver<'a> {
     /// Rows and points, once all bodies are known.
     pub(super) fn declare_rows(&mut self, item: &'a Item) {
         match &item.kind {
-            ItemKind::Constraint { name, role, .. } => self.declare_row(name, *role == Role::Drive),
+            ItemKind::Constraint { name, role, .. } => self.declare_row(name, name, *role == Role::Drive),
             ItemKind::Joint(joint) => self.declare_joint(joint),
             ItemKind::Table(table) => self.declare_table(table),
             ItemKind::Point { name, body, value, .. } => {
@@ -64,6 +64,8 @@ impl<'a> Resolver<'a> {
                 self.declare_input(name, unit, &item.doc);
             }
             ItemKind::Stop { name, .. } => self.declare_stop(name),
+            ItemKind::Mode { name, rows, .. } => self.declare_mode(name, rows, &item.doc),
+            ItemKind::When(_) => self.declare_transition(),
             ItemKind::Element(element) => self.declare_friction(element),
             _ => {}
         }
@@ -197,10 +199,16 @@ impl<'a> Resolver<'a> {
         self.coordinates.push(Coordinate { quantity, span: name.span(), position, velocity, block });
     }
 
-    pub(super) fn declare_row(&mut self, name: &Ident, is_drive: bool) {
+    /// Enters a row of a joint, or of a constraint of its own.
+    pub(super) fn declare_row(&mut self, name: &Ident, owner: &Ident, is_drive: bool) {
         let text = name.to_string();
         if let Some(earlier) = self.scope.rows.get(&text) {
             self.errors.push(duplicate(name, earlier.span));
+            return;
+        }
+        if self.mode_of(&owner.to_string()).is_some() {
+            let row = self.declare_lock(name);
+            self.scope.rows.insert(text, row);
             return;
         }
         let position = self.row_count;
@@ -210,6 +218,7 @@ impl<'a> Resolver<'a> {
         self.scope.motion.add_multiplier(multiplier);
         let span = name.span();
         let (dimension, phi, rate, is_broken) = (None, None, None, false);
+        let position = Some(position);
         let row = Row { position, is_drive, span, multiplier, dimension, phi, rate, is_broken };
         self.scope.rows.insert(text, row);
     }

@@ -14,6 +14,8 @@ use crate::syntax::Formula;
 
 /// A run watches 64 values at once, one of which may be the condition that ends it.
 const MOST_EVENTS: usize = 63;
+/// As many of them are those of stops, frictions and transitions, where there are transitions.
+const OF_CONTACTS: usize = 32;
 
 impl Resolver<'_> {
     pub(super) fn resolve_event(
@@ -40,8 +42,12 @@ impl Resolver<'_> {
             self.errors.push(Diagnostic::new(name.span(), message).help(help));
             return;
         }
-        // stops and frictions that stick are watched, too
-        if self.events.len() + self.stops.len() + self.frictions.len() >= MOST_EVENTS {
+        // stops, frictions that stick and transitions are watched, too
+        let watched = match self.sides.is_empty() {
+            true => self.stops.len() + self.frictions.len(),
+            false => OF_CONTACTS,
+        };
+        if self.events.len() + watched >= MOST_EVENTS {
             let message = format!("`{name}` is one event too many: a run watches {MOST_EVENTS} of them");
             let help = "leave some out, or watch them from the program with `advance_until`";
             self.errors.push(Diagnostic::new(name.span(), message).help(help));

@@ -109,6 +109,15 @@ impl Resolver<'_> {
         let rate = motion.rate(scalar);
         let curved = motion.rate(rate);
         let (rate, curved) = (rate.expr(), curved.expr());
+        self.contact_with((gap, rate, curved), slopes)
+    }
+
+    /// The same with the derivatives that are known: the second one without accelerations.
+    pub(super) fn contact_with(
+        &mut self,
+        (gap, rate, curved): (Expr, Expr, Expr),
+        slopes: Vec<(usize, Expr)>,
+    ) -> Contact {
         let mut acceleration = curved;
         for &(at, slope) in &slopes {
             let Some(of_coordinate) = self.scope.symbol_of(Meaning::Acceleration(at)) else { continue };

@@ -229,7 +229,12 @@ impl Scope<'_> {
             return Err(Diagnostic::new(row.span(), format!("`{text}` is a {kind}, not a drive"))
                 .help(format!("its multiplier is `lambda({text})`")));
         }
-        if !place.allows(Meaning::Multiplier(known.position)) {
+        let is_allowed = match known.position {
+            Some(at) => place.allows(Meaning::Multiplier(at)),
+            // a run finds it behind all forces
+            None => place == Place::Anywhere,
+        };
+        if !is_allowed {
             return Err(Diagnostic::new(
                 name.span(),
                 format!("the multiplier of `{text}` cannot stand here"),

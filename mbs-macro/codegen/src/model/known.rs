@@ -133,7 +133,8 @@ pub enum Curve {
 
 /// A constraint or a drive.
 pub struct Row {
-    pub position: usize,
+    /// Its place among the constraints; nothing of a row of a mode.
+    pub position: Option<usize>,
     pub is_drive: bool,
     pub span: Span,
     pub multiplier: Symbol,

@@ -20,6 +20,7 @@ mod known;
 mod laws;
 mod loads;
 mod measures;
+mod modes;
 mod names;
 mod outlines;
 mod particles;
@@ -99,6 +100,9 @@ pub struct Model {
     pub events: Vec<Event>,
     pub stops: Vec<Stop>,
     pub frictions: Vec<Friction>,
+    pub modes: Vec<Mode>,
+    pub locks: Vec<Lock>,
+    pub transitions: Vec<Transition>,
     pub sketch: Sketch,
     /// Warnings about parts that compile and are likely mistakes.
     pub warnings: Vec<Diagnostic>,
@@ -328,6 +332,36 @@ pub struct Friction {
     pub span: Span,
 }
 
+/// Constraints that come and go together.
+pub struct Mode {
+    pub name: proc_macro2::Ident,
+    /// The place among the inputs of the memory that is 1 while it holds.
+    pub memory: usize,
+}
+
+/// A constraint of a mode.
+pub struct Lock {
+    /// That of a row of a joint, or of a constraint.
+    pub name: String,
+    pub contact: Contact,
+    /// The places among the inputs of the memories of its mode and of its multiplier.
+    pub mode: usize,
+    pub held: usize,
+    pub span: Span,
+}
+
+/// What is set where a value changes its sign.
+pub struct Transition {
+    pub value: Expr,
+    pub is_rising: bool,
+    /// The place among the inputs of the memory of the sign that the value had last.
+    pub memory: usize,
+    /// The condition as it was written.
+    pub text: String,
+    /// As those of a clock.
+    pub sets: Vec<(usize, Expr)>,
+}
+
 /// An end of the way: its gap is 0 there, and never negative.
 pub struct Stop {
     /// The name and the unit of the gap.
@@ -351,7 +385,8 @@ impl Model {
     /// The values along which impulses act: the gaps of stops, and behind them the ways that friction slides.
     pub fn contacts(&self) -> impl Iterator<Item = &Contact> + Clone {
         let frictions = self.frictions.iter().map(|friction| &friction.contact);
-        self.stops.iter().map(|stop| &stop.contact).chain(frictions)
+        let locks = self.locks.iter().map(|lock| &lock.contact);
+        self.stops.iter().map(|stop| &stop.contact).chain(frictions).chain(locks)
     }
 
     /// The coordinate of this direction of a body, if it has one.

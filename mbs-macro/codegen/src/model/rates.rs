@@ -33,7 +33,7 @@ impl Resolver<'_> {
         }
         let Some((rate, dimension)) = found else { return };
         let source = Source { kind: Role::Rate.word(), name: name.to_string(), bodies: None };
-        self.constraints.push(Constraint {
+        self.push_row(Constraint {
             name: name.to_string(),
             source,
             doc: doc.to_owned(),

@@ -15,8 +15,8 @@ use rustc_hash::FxHashMap as HashMap;
 use super::known::{Definition, Energies, State, Value};
 use super::names::Scope;
 use super::{
-    Block, Body, Check, Clock, Closes, Constraint, Coordinate, Direction, Event, Friction, Gap, Model,
-    Output, ReactiveLoad, Solver, Start, Stop,
+    Block, Body, Check, Clock, Closes, Constraint, Coordinate, Direction, Event, Friction, Gap, Lock, Mode,
+    Model, Output, ReactiveLoad, Solver, Start, Stop, Transition,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics, counted};
 use crate::mechanics::{Inertia, Load, Particle};
@@ -100,6 +100,14 @@ pub(super) struct Resolver<'a> {
     pub events: Vec<Event>,
     pub stops: Vec<Stop>,
     pub frictions: Vec<Friction>,
+    pub modes: Vec<Mode>,
+    /// The modes of joints and constraints, by their names.
+    pub rows_of_modes: HashMap<String, usize>,
+    pub locks: Vec<Lock>,
+    pub transitions: Vec<Transition>,
+    /// The places of the memories of transitions, in their order, and how many of them are resolved.
+    pub sides: Vec<usize>,
+    pub resolved_sides: usize,
     pub event_names: HashMap<String, Span>,
 }
 
@@ -143,6 +151,12 @@ impl<'a> Resolver<'a> {
             events: Vec::new(),
             stops: Vec::new(),
             frictions: Vec::new(),
+            modes: Vec::new(),
+            rows_of_modes: HashMap::default(),
+            locks: Vec::new(),
+            transitions: Vec::new(),
+            sides: Vec::new(),
+            resolved_sides: 0,
             event_names: HashMap::default(),
         }
     }
@@ -220,6 +234,7 @@ impl<'a> Resolver<'a> {
         self.check_solver();
         self.check_stops();
         self.check_frictions();
+        self.check_modes(declaration);
         if self.dof.is_none() {
             let lines = self.coordinates.iter().filter(|coordinate| !coordinate.is_own()).count();
             let left = lines as i64 - self.row_count as i64;
@@ -274,6 +289,9 @@ impl<'a> Resolver<'a> {
             events: self.events,
             stops: self.stops,
             frictions: self.frictions,
+            modes: self.modes,
+            locks: self.locks,
+            transitions: self.transitions,
             sketch,
             warnings,
         };

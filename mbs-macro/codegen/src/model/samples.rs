@@ -37,22 +37,7 @@ impl Resolver<'_> {
                 self.scope.formula_of(offset, Place::Property, what, &mut self.errors)
             }
         };
-        let mut sets: Vec<(usize, Expr)> = Vec::new();
-        let mut known: HashMap<Symbol, Expr> = HashMap::default();
-        for set in &every.sets {
-            let Some((memory, symbol)) = self.memory(&set.memory) else { continue };
-            let what = format!("the value of `{}`", set.memory);
-            let dimension = self.inputs[memory].quantity.dimension;
-            let value =
-                self.scope.formula_of(&set.value, Place::Sample, (&what, dimension), &mut self.errors);
-            let Some(value) = value else { continue };
-            let value = self.scope.arena.substitute(value, &known);
-            known.insert(symbol, value);
-            match sets.iter_mut().find(|(earlier, _)| *earlier == memory) {
-                Some((_, earlier)) => *earlier = value,
-                None => sets.push((memory, value)),
-            }
-        }
+        let sets = self.sets(&every.sets);
         let error = |message: String, help: &str| Diagnostic::new(every.keyword, message).help(help);
         if every.sets.is_empty() {
             self.errors.push(error(
@@ -86,6 +71,27 @@ impl Resolver<'_> {
             self.bound(&name, (opposite, "it is the offset of a clock"), LONGEST_PERIOD, formula.span);
         }
         self.clocks.push(Clock { period, offset, sets });
+    }
+
+    /// Memories with their values, each once: what is set later sees what was set before it.
+    pub(super) fn sets(&mut self, sets: &[Set]) -> Vec<(usize, Expr)> {
+        let mut found: Vec<(usize, Expr)> = Vec::new();
+        let mut known: HashMap<Symbol, Expr> = HashMap::default();
+        for set in sets {
+            let Some((memory, symbol)) = self.memory(&set.memory) else { continue };
+            let what = format!("the value of `{}`", set.memory);
+            let dimension = self.inputs[memory].quantity.dimension;
+            let value =
+                self.scope.formula_of(&set.value, Place::Sample, (&what, dimension), &mut self.errors);
+            let Some(value) = value else { continue };
+            let value = self.scope.arena.substitute(value, &known);
+            known.insert(symbol, value);
+            match found.iter_mut().find(|(earlier, _)| *earlier == memory) {
+                Some((_, earlier)) => *earlier = value,
+                None => found.push((memory, value)),
+            }
+        }
+        found
     }
 
     /// Asks that a time is no longer than clocks count exactly.
@@ -150,20 +156,19 @@ impl Resolver<'_> {
 
     /// The memories that no clock sets. The copies that a loop or an assembly makes of a statement are warned of once.
     pub(super) fn never_set(&self, declaration: &Declaration) -> Vec<Diagnostic> {
-        let set: BTreeSet<&str> = self
-            .clocks
-            .iter()
-            .flat_map(|clock| {
-                clock.sets.iter().map(|(memory, _)| self.inputs[*memory].quantity.name.as_str())
-            })
-            .collect();
+        let of_clocks = self.clocks.iter().flat_map(|clock| &clock.sets);
+        let sets = of_clocks.chain(self.transitions.iter().flat_map(|transition| &transition.sets));
+        let set: BTreeSet<&str> =
+            sets.map(|(memory, _)| self.inputs[*memory].quantity.name.as_str()).collect();
         let mut told = BTreeSet::new();
         let never = declaration.items.iter().filter_map(|item| match &item.kind {
             ItemKind::Memory { name, .. } if !set.contains(&*name.to_string()) => {
                 told.insert(item.position).then(|| {
-                    Diagnostic::new(name.span(), "no clock sets this memory, so that it stays as it is").help(
-                        format!("set it, as in `every 1 [ms] {{ set {name} = …; }}`, or make it a `param`"),
+                    Diagnostic::new(
+                        name.span(),
+                        "no clock sets this memory, and no `when`, so that it stays as it is",
                     )
+                    .help(format!("set it, as in `every 1 [ms] {{ set {name} = …; }}`, or make it a `param`"))
                 })
             }
             _ => None,
@@ -174,7 +179,7 @@ impl Resolver<'_> {
     /// A `set` that belongs to no clock.
     pub(super) fn set_outside(&mut self, set: &Set) {
         let message = format!("nothing says when `{}` is set", set.memory);
-        let help = format!("put it in a clock: `every 1 [ms] {{ set {} = …; }}`", set.memory);
+        let help = format!("put it in a clock, `every 1 [ms] {{ … }}`, or in a `when x < 0 [m] {{ … }}`");
         self.errors.push(Diagnostic::new(set.memory.span(), message).help(help));
     }
 }

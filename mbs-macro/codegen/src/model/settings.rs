@@ -24,7 +24,8 @@ impl<'a> Resolver<'a> {
                 }
             }
             ItemKind::Input { name, value: Some(value), .. }
-            | ItemKind::Memory { name, value: Some(value), .. } => self.resolve_input(name, value),
+            | ItemKind::Memory { name, value: Some(value), .. }
+            | ItemKind::Mode { name, value: Some(value), .. } => self.resolve_input(name, value),
             _ => {}
         }
     }

@@ -49,7 +49,7 @@ impl<'a> Resolver<'a> {
         let (name, span, doc) = (name.to_string(), name.span(), item.doc.clone());
         let is_drive = *role == Role::Drive;
         let source = Source { kind: role.word(), name: name.clone(), bodies: None };
-        self.constraints.push(Constraint { name, source, doc, span, is_drive, rate: None, phi, dimension });
+        self.push_row(Constraint { name, source, doc, span, is_drive, rate: None, phi, dimension });
     }
 
     /// Φ = left − right with its dimension.
@@ -150,6 +150,8 @@ impl<'a> Resolver<'a> {
             ItemKind::State { name, value, .. } => self.resolve_state(name, value.as_ref()),
             ItemKind::Particle { name, at, properties } => self.resolve_particle(name, at, properties),
             ItemKind::Every(every) => self.resolve_every(every),
+            ItemKind::When(when) => self.resolve_when(when),
+            ItemKind::Mode { name, value: Some(value), .. } => self.check_mode(name, value.span),
             ItemKind::Set(set) => self.set_outside(set),
             ItemKind::Start { entries, .. } => entries.iter().for_each(|entry| self.resolve_start(entry)),
             _ => {}

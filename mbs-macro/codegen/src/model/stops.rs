@@ -97,11 +97,12 @@ impl Resolver<'_> {
 
     /// Refuses one stop or friction more than there may be.
     pub(super) fn has_room_for(&mut self, name: &Ident, what: &str, help: &str) -> Option<()> {
-        if self.stops.len() + self.frictions.len() < MOST_CONTACTS {
+        if self.stops.len() + self.frictions.len() + self.locks.len() < MOST_CONTACTS {
             return Some(());
         }
         let message = format!(
-            "`{name}` is one {what} too many: a mechanism has at most {MOST_CONTACTS} stops and frictions that stick"
+            "`{name}` is one {what} too many: a mechanism has at most {MOST_CONTACTS} stops, frictions that stick and \
+             constraints of modes"
         );
         self.errors.push(Diagnostic::new(name.span(), message).help(help));
         None

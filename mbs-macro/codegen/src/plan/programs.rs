@@ -51,8 +51,9 @@ pub fn roots(
     let momentum = masses::momentum(model, equations);
     let entries = equations.phi_q.iter().flat_map(|row| row.values().copied());
     let growths = solver.factorization.pivots.iter().map(|pivot| pivot.growth);
-    let samples = model.clocks.iter().flat_map(|clock| clock.sets.iter().map(|(_, value)| *value));
-    let samples: Vec<Expr> = samples.collect();
+    let sets = model.clocks.iter().map(|clock| &clock.sets);
+    let sets = sets.chain(model.transitions.iter().map(|transition| &transition.sets));
+    let samples: Vec<Expr> = sets.flatten().map(|(_, value)| *value).collect();
     let contacts = solver.contacts(model, problem);
     for (function, values) in [
         (FunctionId::Phi, equations.phi.clone()),
@@ -76,6 +77,7 @@ pub fn roots(
         (FunctionId::Events, model.events.iter().map(|event| event.value).collect()),
         (FunctionId::Clocks, model.clocks.iter().flat_map(|clock| [clock.period, clock.offset]).collect()),
         (FunctionId::Samples, samples),
+        (FunctionId::Transitions, model.transitions.iter().map(|transition| transition.value).collect()),
         (FunctionId::Stops, model.stops.iter().flat_map(|stop| [stop.restitution, stop.settle]).collect()),
         (
             FunctionId::Gaps,

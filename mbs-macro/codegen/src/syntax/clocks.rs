@@ -45,14 +45,19 @@ pub(super) fn set(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Set(Set { prefix, memory, value }))
 }
 
-/// The first word of what a clock does that begins something else than a `set`, `for` or `if`.
-pub(super) fn other_than_set(block: TokenStream) -> Option<Ident> {
+/// What is done at a moment.
+pub(super) fn is_set(word: &Ident) -> bool {
+    ["set", "enter", "leave"].iter().any(|known| word == known)
+}
+
+/// The first word of a block that begins something else than these statements, `for` or `if`.
+pub(super) fn other_than(is_statement: fn(&Ident) -> bool, block: TokenStream) -> Option<Ident> {
     let mut is_first = true;
     let mut is_set = false;
     for token in block {
         match token {
             TokenTree::Ident(word) if is_first => {
-                is_set = word == "set";
+                is_set = is_statement(&word);
                 if !(is_set || ["for", "if", "else"].iter().any(|known| word == known)) {
                     return Some(word);
                 }
@@ -62,7 +67,7 @@ pub(super) fn other_than_set(block: TokenStream) -> Option<Ident> {
             // a block of statements, and not of a formula
             TokenTree::Group(group) if group.delimiter() == Delimiter::Brace && !is_set => {
                 is_first = true;
-                if let Some(word) = other_than_set(group.stream()) {
+                if let Some(word) = other_than(is_statement, group.stream()) {
                     return Some(word);
                 }
             }

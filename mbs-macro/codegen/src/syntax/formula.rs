@@ -21,6 +21,11 @@ impl Formula {
         Self { span: name.span(), kind: FormulaKind::Name(name.clone()) }
     }
 
+    /// A whole number without a unit.
+    pub fn whole(value: i64, span: Span) -> Self {
+        Self { span, kind: FormulaKind::Number { value: value.into(), unit: None } }
+    }
+
     /// A bare number, also behind a sign, gets this unit; any other formula has its own.
     pub fn in_unit(self, unit: &UnitText) -> Self {
         let kind = match self.kind {

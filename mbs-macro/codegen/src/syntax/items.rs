@@ -131,7 +131,7 @@ pub(super) fn parameter(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Parameter { name, value, condition })
 }
 
-fn condition(input: ParseStream<'_>, example: &str) -> Result<Condition> {
+pub(super) fn condition(input: ParseStream<'_>, example: &str) -> Result<Condition> {
     let ahead = input.fork();
     let left = input.parse()?;
     let comparison_span = input.span();

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use syn::Result;
 use syn::parse::ParseStream;
 
-use super::{EnergyRole, ItemKind, Role, clocks, items, outlines, particles, solver, tables};
+use super::{EnergyRole, ItemKind, Role, clocks, items, modes, outlines, particles, solver, tables};
 use crate::mechanics::elements::ELEMENTS;
 use crate::mechanics::joints::JOINTS;
 
@@ -61,7 +61,9 @@ pub const STATEMENTS: &[Statement] = &[
     ("state", "state current [A] = 0;", "a state of its own, which an equation drives", |input, _| items::state(input)),
     ("coordinate", "coordinate w [mm];", "a coordinate of its own, with which points move", |input, _| particles::coordinate(input)),
     ("memory", "memory integral [rad] = 0;", "a value that holds until a clock sets it", |input, _| clocks::memory(input)),
-    ("set", "set integral = integral + error;", "gives a memory a value, in an `every`", |input, _| clocks::set(input)),
+    ("set", "set integral = integral + error;", "gives a memory a value, in an `every` or a `when`", |input, _| clocks::set(input)),
+    ("enter", "enter engaged;", "lets the constraints of a mode hold, in an `every` or a `when`", modes::enter),
+    ("leave", "leave engaged;", "lets the constraints of a mode go", modes::leave),
     ("der", "der(current) = (u - R*current)/L;", "the rate of a state", |input, _| items::rate(input)),
     ("let", "let s = sin(theta);", "a name for an expression", |input, _| items::let_item(input)),
     ("gravity", "gravity = (0, -9.81) [m/s^2];", "acts on every body that has a mass", items::gravity),
@@ -96,6 +98,8 @@ const BLOCKS: &[(&str, &str, &str)] = &[
     ("for", "for i in 1..=N { … }", "repeats statements"),
     ("if", "if i > 1 { … } else { … }", "chooses statements by whole numbers"),
     ("every", "every 1 [ms] { … }", "sets memories at sample times, one after the other"),
+    ("mode", "mode engaged { … }", "has constraints that come and go"),
+    ("when", "when x < 0 [m] { … }", "sets memories, and enters and leaves modes, where a condition begins to hold"),
     ("assembly", "assembly Leg { … }", "describes a part that is used more than once"),
 ];
 
@@ -137,7 +141,7 @@ const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["equation", "eq", "condition"], "an equation between coordinates is a `constraint`, a condition between parameters a `require`"),
     (&["load", "moment"], "a load is a `force` or a `torque`"),
     (&["sensor", "measure", "record", "plot"], "what is to be recorded is an `output`"),
-    (&["when", "trigger", "zero_crossing", "until"], "a moment that a run finds is an `event`: `event hit: x = 0.2 [m] rising;`"),
+    (&["trigger", "zero_crossing", "until"], "a moment that a run finds is an `event`: `event hit: x = 0.2 [m] rising;`"),
     (&["sample", "sampled", "periodic", "clock", "controller", "discrete"], "what a controller does at sample times stands in `every 1 [ms] { set u = …; }`, where `memory u [V] = 0;` holds the value"),
     (&["initial", "init", "initially"], "the motion begins where `start { … }` says"),
     (&["variable", "var"], "coordinates belong to bodies: `body rod (x, y, theta) { … }`; one with which points move is a `coordinate`: `coordinate w [mm];`; what is no position is a `state`: `state current [A] = 0; der(current) = …;`"),

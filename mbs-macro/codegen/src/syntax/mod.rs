@@ -9,6 +9,7 @@ mod indices;
 mod items;
 mod joints;
 mod keywords;
+mod modes;
 mod outlines;
 mod particles;
 mod roles;
@@ -25,6 +26,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 pub use clocks::{Every, Set};
 pub use items::parse;
 pub use keywords::{Keyword, KeywordKind, keywords};
+pub use modes::When;
 pub use outlines::Outline;
 pub use roles::{EnergyRole, Role};
 
@@ -87,8 +89,12 @@ pub enum ItemKind {
     Memory { name: Ident, unit: UnitText, value: Option<Formula> },
     /// `every 1 [ms] offset 0.2 [ms] { … }`
     Every(Every),
-    /// `set integral = integral + error;`
+    /// `set integral = integral + error;`, `enter engaged;` or `leave engaged;`
     Set(Set),
+    /// `mode engaged { … }`, whose constraints are statements of their own before it
+    Mode { name: Ident, value: Option<Formula>, rows: Vec<Ident> },
+    /// `when x < 0 [m] { … }`
+    When(When),
     /// `der(current) = (u - R*current)/L;`
     Rate { prefix: Vec<Ident>, state: Ident, value: Formula },
     /// `require l1 < l2;`, or the condition of a parameter that is bound.

@@ -69,7 +69,7 @@ impl Pack {
         let is_like_first =
             |run: &Run| run.mechanism.shares_programs_with(&first.mechanism) && run.method == first.method;
         let info = first.mechanism.declared_info();
-        let are_judged_alone = !info.redundant.is_empty() || info.contacts() > 0;
+        let are_judged_alone = !info.redundant.is_empty() || info.jumps();
         if runs.len() > LANES || are_judged_alone || !runs.iter().all(is_like_first) {
             return Err(runs);
         }

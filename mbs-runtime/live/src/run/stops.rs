@@ -48,7 +48,7 @@ impl<T: Real> Run<T> {
 
     /// Rests on the stops that the start touches.
     pub(super) fn touch(&mut self) -> Result<(), Error> {
-        if self.mechanism.declared_info().contacts() == 0 {
+        if !self.mechanism.declared_info().jumps() {
             return Ok(());
         }
         let [q, v] = self.completed();

@@ -40,7 +40,7 @@ impl<T: Real> System<T> for Run<T> {
     }
 
     fn step(&mut self) -> Result<(), Error> {
-        if self.mechanism.declared_info().contacts() == 0 {
+        if !self.mechanism.declared_info().jumps() {
             self.step_between()?;
         } else {
             self.step_to_stops()?;

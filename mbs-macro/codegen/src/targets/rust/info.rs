@@ -6,7 +6,9 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::names::Names;
-use crate::compiled::{Compiled, Count, Crossing, Event, Friction, Pivot, Quantity, Sampling, Stop};
+use crate::compiled::{
+    Compiled, Count, Crossing, Event, Friction, Lock, Mode, Pivot, Quantity, Sampling, Stop, Transition,
+};
 
 pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
     let runtime = &names.runtime;
@@ -60,6 +62,7 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             let memory = Literal::usize_unsuffixed(*memory);
             quote!(#runtime::DeclaredFriction { name: #name, memory: #memory, limits: [#sliding, #sticking] })
         });
+    let modes = modes(compiled, runtime);
     let start_pivots = pivots(&compiled.start_pivots, runtime);
     let pivots = pivots(&compiled.pivots, runtime);
     let functions = compiled.counts().into_iter().map(|function| {
@@ -86,8 +89,33 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             &[#(#parameters),*], &[#(#inputs),*], &[#(#coordinates),*], #lines, &[#(#outputs),*],
             &[#(#events),*], &[#(#constraints),*], &[#(#states),*], &[#(#redundant),*],
             &[#(#velocity_forces),*], [#(#kept),*], #pivots, #start_pivots, #sampling, &[#(#stops),*], &[#(#frictions),*],
+            #modes,
             &[#(#functions),*],
         )
+    }
+}
+
+/// The modes with their constraints, and the transitions.
+fn modes(compiled: &Compiled, runtime: &TokenStream) -> TokenStream {
+    if compiled.modes.is_empty() && compiled.transitions.is_empty() {
+        return quote!(#runtime::Modes::NONE);
+    }
+    let modes = compiled.modes.iter().map(|Mode { name, memory }| {
+        let memory = Literal::usize_unsuffixed(*memory);
+        quote!(#runtime::DeclaredMode { name: #name, memory: #memory })
+    });
+    let locks = compiled.locks.iter().map(|Lock { name, mode, held, formula, .. }| {
+        let [mode, held] = [mode, held].map(|it| Literal::usize_unsuffixed(*it));
+        quote!(#runtime::DeclaredLock { name: #name, mode: #mode, held: #held, formula: #formula })
+    });
+    let transitions = compiled.transitions.iter().map(|Transition { text, is_rising, memory }| {
+        let memory = Literal::usize_unsuffixed(*memory);
+        quote!(#runtime::DeclaredTransition { condition: #text, is_rising: #is_rising, memory: #memory })
+    });
+    quote! {
+        #runtime::Modes {
+            modes: &[#(#modes),*], locks: &[#(#locks),*], transitions: &[#(#transitions),*],
+        }
     }
 }
 

@@ -62,9 +62,10 @@ pub fn next_corner(compiled: &Compiled, names: &Names) -> TokenStream {
 /// The clocks, and what they set; nothing without one.
 pub fn samples(compiled: &Compiled, names: &Names) -> TokenStream {
     let Sampling { clocks, samples, .. } = &compiled.sampling;
-    if *clocks == 0 {
+    if samples.is_empty() {
         return TokenStream::new();
     }
+    let groups = clocks + compiled.transitions.len();
     let (state, inputs) = (&names.state, &names.inputs.of_t);
     let valued = |function, access: &Access, count: usize| {
         let body = body(compiled, names, function, access);
@@ -79,7 +80,7 @@ pub fn samples(compiled: &Compiled, names: &Names) -> TokenStream {
         let [at, period, offset] = [clock, 2 * clock, 2 * clock + 1].map(index);
         quote!(#at => [values[#period], values[#offset]],)
     });
-    let sets = (0..*clocks).map(|clock| {
+    let sets = (0..groups).map(|clock| {
         let of_clock = samples.iter().enumerate().filter(|(_, [of, _])| *of == clock);
         let sets = of_clock.map(|(at, [_, memory])| {
             let (memory, at) = (field(&compiled.inputs[*memory].quantity.name), index(at));
@@ -88,7 +89,9 @@ pub fn samples(compiled: &Compiled, names: &Names) -> TokenStream {
         let clock = index(clock);
         quote!(#clock => { #(#sets)* })
     });
+    let transitions = transitions(compiled, names);
     quote! {
+        #transitions
         fn clock(&self, clock: ::core::primitive::usize) -> [T; 2] {
             #times
             match clock {
@@ -101,6 +104,24 @@ pub fn samples(compiled: &Compiled, names: &Names) -> TokenStream {
             match clock {
                 #(#sets)*
                 _ => {}
+            }
+        }
+    }
+}
+
+/// The values of transitions; nothing without one.
+fn transitions(compiled: &Compiled, names: &Names) -> TokenStream {
+    if compiled.transitions.is_empty() {
+        return TokenStream::new();
+    }
+    let (state, inputs) = (&names.state, &names.inputs.of_t);
+    let body = body(compiled, names, FunctionId::Transitions, &Access::of_state());
+    let (statements, values) = (&body.statements, body.array(0..compiled.transitions.len()));
+    quote! {
+        fn transitions(&self, at: &#state, inputs: &#inputs, values: &mut [T]) {
+            #statements
+            for (to, from) in values.iter_mut().zip(#values) {
+                *to = from;
             }
         }
     }

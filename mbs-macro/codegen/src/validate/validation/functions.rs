@@ -51,9 +51,12 @@ impl Point<'_> {
         let times: Vec<_> =
             clocks.clone().flat_map(|it| [self.value(it.period), self.value(it.offset)]).collect();
         self.agree(FunctionId::Clocks, &times)?;
-        let samples: Vec<_> =
-            clocks.flat_map(|it| it.sets.iter().map(|(_, value)| self.value(*value))).collect();
+        let sets = clocks.map(|clock| &clock.sets);
+        let sets = sets.chain(model.transitions.iter().map(|transition| &transition.sets));
+        let samples: Vec<_> = sets.flatten().map(|(_, value)| self.value(*value)).collect();
         self.agree(FunctionId::Samples, &samples)?;
+        let transitions = model.transitions.iter().map(|transition| self.value(transition.value));
+        self.agree(FunctionId::Transitions, &transitions.collect::<Vec<_>>())?;
         let contacts = model.contacts();
         let gaps = contacts.flat_map(|of| [of.gap, of.rate, of.acceleration].map(|x| self.value(x)));
         self.agree(FunctionId::Gaps, &gaps.collect::<Vec<_>>())?;

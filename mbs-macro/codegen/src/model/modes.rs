@@ -1,0 +1,193 @@
+//! `mode engaged { fixed lock (plate, wheel); }` and `when x < 0 [m] { enter engaged; }`: constraints that come and go.
+//!
+//! A mode is a memory of 1 while its constraints hold, else 0. They have no rows in the elimination. A run asks for the
+//! responses of the mechanism to impulses along them, as it does at [stops](super::stops), and finds the forces with
+//! which they hold. So what runs outside of every mode is what it would be without them.
+//!
+//! A transition is a sample whose time is where a condition begins to hold.
+
+use mbs_symbolic::units::{Dimension, Unit};
+use mbs_symbolic::{Algebra, Expr, Stage};
+use proc_macro2::Ident;
+
+use super::declare::quantity;
+use super::known::{Row, Value};
+use super::names::Place;
+use super::resolver::Resolver;
+use super::{Constraint, Contact, Lock, Meaning, Mode, Transition};
+use crate::diagnostics::{Diagnostic, described};
+use crate::quantity::{Comparison, Setting};
+use crate::syntax::{Declaration, ItemKind, When};
+
+/// A run looks at the condition of each of them in every step.
+const MOST_TRANSITIONS: usize = 16;
+
+impl Resolver<'_> {
+    /// The memory of a mode, which is 1 while it holds.
+    pub(super) fn declare_mode(&mut self, name: &Ident, rows: &[Ident], doc: &str) {
+        self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
+        let memory = self.inputs.len();
+        let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, Meaning::Input(memory));
+        let value = Value::Symbol { symbol, dimension: Dimension::NONE, span: name.span() };
+        self.scope.declare(name, value, &mut self.errors);
+        self.inputs.push(Setting { quantity: quantity(name, doc, "", Unit::ONE), value: 0.0 });
+        self.rows_of_modes.extend(rows.iter().map(|row| (row.to_string(), self.modes.len())));
+        self.modes.push(Mode { name: name.clone(), memory });
+    }
+
+    /// The symbol of the multiplier of a row of a mode: a memory, which a run sets while the mode holds.
+    pub(super) fn declare_lock(&mut self, name: &Ident) -> Row {
+        let memory = self.inputs.len();
+        let text = format!("lambda({name})");
+        let multiplier = self.scope.symbol(&text, Stage::Variable, Meaning::Input(memory));
+        let held = held_of(name);
+        let doc = "the multiplier of a constraint while its mode holds";
+        self.inputs.push(Setting { quantity: quantity(&held, doc, "", Unit::ONE), value: 0.0 });
+        let (dimension, phi, rate, is_broken) = (None, None, None, false);
+        Row {
+            position: None,
+            is_drive: false,
+            span: name.span(),
+            multiplier,
+            dimension,
+            phi,
+            rate,
+            is_broken,
+        }
+    }
+
+    /// The memory of a transition: the sign that its value had last.
+    pub(super) fn declare_transition(&mut self) {
+        self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
+        self.sides.push(self.inputs.len());
+        let name = Ident::new(&format!("when_{}", self.sides.len()), proc_macro2::Span::call_site());
+        let doc = "the sign of the difference of both sides of a condition";
+        self.inputs.push(Setting { quantity: quantity(&name, doc, "", Unit::ONE), value: 0.0 });
+    }
+
+    /// The mode of a joint or a constraint, if it has one.
+    pub(super) fn mode_of(&self, owner: &str) -> Option<usize> {
+        self.rows_of_modes.get(owner).copied()
+    }
+
+    /// Enters a row, among the constraints or those of its mode.
+    pub(super) fn push_row(&mut self, row: Constraint) {
+        match self.mode_of(&row.source.name) {
+            Some(mode) => self.push_lock(mode, &row),
+            None => self.constraints.push(row),
+        }
+    }
+
+    fn push_lock(&mut self, mode: usize, row: &Constraint) {
+        let name = Ident::new(&row.name, row.span);
+        let known = self.scope.rows.get(&row.name).map(|known| self.scope.meaning(known.multiplier));
+        let (Some(Meaning::Input(held)), Some(mode)) = (known, self.modes.get(mode)) else { return };
+        let mode = mode.memory;
+        let help = "let fewer constraints come and go";
+        if self.has_room_for(&name, "constraint of a mode", help).is_none() {
+            return;
+        }
+        let contact = match row.rate {
+            Some(rate) => self.contact_of_rate(rate),
+            None => self.contact(row.phi),
+        };
+        let dimension = Dimension::of(1, 2, -2).over(row.dimension);
+        if let Some(input) = self.inputs.get_mut(held) {
+            (input.quantity.dimension, input.quantity.unit) = (dimension, dimension.si_unit());
+        }
+        self.locks.push(Lock { name: row.name.clone(), contact, mode, held, span: row.span });
+    }
+
+    /// An equation between rates with its derivative. Nothing holds positions.
+    fn contact_of_rate(&mut self, rate: Expr) -> Contact {
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let motion = &self.scope.motion;
+        let scalar = algebra.scalar(rate);
+        let (slopes, curved) = (motion.slopes_of_rate(scalar), motion.rate(scalar).expr());
+        let gap = self.scope.arena.zero();
+        self.contact_with((gap, rate, curved), slopes)
+    }
+
+    /// Whether a mode holds at first.
+    pub(super) fn check_mode(&mut self, name: &Ident, value_span: proc_macro2::Span) {
+        let value = self.inputs.iter().find(|input| *name == input.quantity.name).map(|input| input.value);
+        if value.is_some_and(|value| value != 0.0 && value != 1.0) {
+            let message = format!("`{name}` holds at first or it does not");
+            let help = format!("write `mode {name} = 1 {{ … }}`, or leave the value out");
+            self.errors.push(Diagnostic::new(value_span, message).help(help));
+        }
+    }
+
+    /// Reads a transition.
+    pub(super) fn resolve_when(&mut self, when: &When) {
+        let Some(memory) = self.sides.get(self.resolved_sides).copied() else { return };
+        self.resolved_sides += 1;
+        let sets = self.sets(&when.sets);
+        let condition = &when.condition;
+        let [left, right] = [&condition.left, &condition.right]
+            .map(|side| self.scope.formula(side, Place::Event, &mut self.errors));
+        let (Some(left), Some(right)) = (left, right) else { return };
+        if let (Some(a), Some(b)) = (left.dimension, right.dimension)
+            && a != b
+        {
+            let message = format!("{} cannot be compared with {}", described(a), described(b));
+            let help = "give the number its unit, or compare with 0";
+            self.errors.push(Diagnostic::new(condition.comparison_span, message).help(help));
+            return;
+        }
+        let value = self.scope.arena.sub(left.expr, right.expr);
+        let mut refuse =
+            |message: &str, help: &str| self.errors.push(Diagnostic::new(when.keyword, message).help(help));
+        if self.scope.arena.stage(value) != Stage::Variable {
+            let help = "write it in positions, velocities, inputs or time, as in `when x < 0 [m] { … }`";
+            return refuse("this never begins to hold: nothing that changes is left in it", help);
+        }
+        if sets.is_empty() {
+            let help =
+                "enter or leave a mode in it, or give a memory a value: `when x < 0 [m] { enter latched; }`";
+            return refuse("this `when` does nothing", help);
+        }
+        if self.transitions.len() == MOST_TRANSITIONS {
+            let message =
+                format!("a mechanism has at most {MOST_TRANSITIONS} of these, and this is one more");
+            return refuse(&message, "gather what happens at the same moment in one `when`");
+        }
+        let is_rising = matches!(condition.comparison, Comparison::Greater | Comparison::GreaterOrEqual);
+        let text = condition.text.clone();
+        self.transitions.push(Transition { value, is_rising, memory, text, sets });
+    }
+
+    /// Refuses modes that are never entered, and what does not go with modes.
+    pub(super) fn check_modes(&mut self, declaration: &Declaration) {
+        let of_clocks = self.clocks.iter().flat_map(|clock| &clock.sets);
+        let of_transitions = self.transitions.iter().flat_map(|transition| &transition.sets);
+        let set: Vec<usize> = of_clocks.chain(of_transitions).map(|(memory, _)| *memory).collect();
+        for item in &declaration.items {
+            let ItemKind::Mode { name, rows, .. } = &item.kind else { continue };
+            let mut refuse = |message: String, help: String| {
+                self.errors.push(Diagnostic::new(name.span(), message).help(help));
+            };
+            let Some(mode) = self.modes.iter().find(|mode| mode.name == *name) else { continue };
+            if rows.is_empty() {
+                let help = format!("`mode {name} {{ fixed lock (plate, wheel); }}`, or take a `memory`");
+                refuse(format!("nothing holds in `{name}`"), help);
+            } else if !set.contains(&mode.memory) {
+                let help = format!("say when, as in `when x < 0 [m] {{ enter {name}; }}`");
+                refuse(format!("nothing enters or leaves `{name}`"), help);
+            }
+            if self.solver.has_reduced_states() {
+                let help = "leave `states = reduced;` out where there are modes".to_owned();
+                refuse(format!("`{name}` holds coordinates that are not integrated"), help);
+            }
+            if self.solver.reverse.is_some() {
+                let help = "leave `gradients = reverse;` out".to_owned();
+                refuse(format!("no way leads back through what enters `{name}`"), help);
+            }
+        }
+    }
+}
+
+/// The name of the memory of a multiplier.
+fn held_of(name: &Ident) -> Ident {
+    Ident::new(&format!("{}_held", name.to_string().trim_start_matches("r#")), name.span())
+}

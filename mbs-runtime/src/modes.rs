@@ -1,0 +1,222 @@
+//! Constraints of modes: which of them hold, and what enters and leaves modes.
+//!
+//! A mode is a memory of 1 while its constraints hold. Their rows stand behind those of stops and frictions, and hold with
+//! any force: where W x + b is asked to be 0 they take part, whatever the sign of x. Where a mode is entered impulses Λ lead
+//! the rates ġ of its constraints to 0,
+//!
+//! ```text
+//! W Λ + ġ = 0    v⁺ = v + Y Λ
+//! ```
+//!
+//! which is an impact without restitution: what joints leave free keeps its momentum. A mode is left without one.
+//!
+//! A transition is a sample where a condition begins to hold. A memory keeps on which side of its condition it was last, so
+//! that also what jumps is seen; and the largest difference of the two sides of the condition so far, of which a small share
+//! is rounding. What stays at its limit holds.
+
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, those};
+use crate::declared::DeclaredLock;
+use crate::equations::{At, Equations};
+use crate::mechanism::growth_limit;
+use crate::moreau::Changes;
+use crate::pressing::held;
+use crate::sticking::unanswered;
+use crate::{Error, Info, Real, vectors};
+
+/// So often transitions follow each other at one moment.
+const IN_SEQUENCE: usize = 16;
+/// A mode holds where its constraints are met within this share of the size of the coordinates,
+const CLOSED: f64 = 1e-6;
+/// or within so many steps at the rate with which they close.
+const STEPS: f64 = 4.0;
+/// So many of Newton's steps lead positions to them, each with a residual that is the square of that before.
+const CLOSINGS: usize = 4;
+/// The least size in m or rad.
+const LEAST_SIZE: f64 = 1e-3;
+/// A value is at its limit below this share of the largest one so far.
+const ROUNDING: f64 = 1e-12;
+/// Impulses leave this share of a rate where its constraint depends on others.
+const LEFT: f64 = 1e-6;
+
+/// The constraints of modes by their rows among the contacts.
+pub(crate) fn locks(info: &Info) -> impl Iterator<Item = (usize, &'static DeclaredLock)> {
+    let first = info.watched_contacts();
+    info.modes.locks.iter().enumerate().map(move |(at, lock)| (first + at, lock))
+}
+
+/// Those of the modes that hold.
+pub(crate) fn locked<T: Real>(info: &Info, inputs: &[T]) -> u32 {
+    let holds = |lock: &DeclaredLock| inputs.get(lock.mode).is_some_and(|mode| mode.to_f64() > 0.5);
+    locks(info).filter(|(_, lock)| holds(lock)).fold(0, |set, (row, _)| set | bit(row))
+}
+
+/// The set of all stops.
+pub(crate) fn all_stops(info: &Info) -> u32 {
+    those(info.stops.len(), |_| true)
+}
+
+/// Sets the memories of the multipliers of the constraints that hold: a force x along ∂g/∂q is −λ.
+pub(crate) fn note_multipliers<T: Real>(info: &Info, inputs: &mut [T], held: u32, forces: &Each<T>) {
+    for (row, lock) in locks(info) {
+        let force = forces.get(row).copied().filter(|_| has(held, row)).unwrap_or_default();
+        if let Some(to) = inputs.get_mut(lock.held) {
+            *to = -force;
+        }
+    }
+}
+
+/// The first constraint of a set that is off by more than is allowed.
+///
+/// # Errors
+/// [`Error::Apart`].
+pub(crate) fn are_met(
+    info: &Info,
+    t: f64,
+    set: u32,
+    off: impl Fn(usize) -> f64,
+    allowed: impl Fn(usize) -> f64,
+) -> Result<(), Error> {
+    // written so that a NaN is off
+    let is_off = |row: usize| !(off(row).abs() <= allowed(row));
+    match locks(info).find(|(row, _)| has(set, *row) && is_off(*row)) {
+        Some((row, lock)) => Err(Error::Apart { t, constraint: lock.name, by: off(row) }),
+        None => Ok(()),
+    }
+}
+
+/// How far constraints may be off where their mode is entered, given Σ |∂g/∂q|.
+pub(crate) fn allowed(size: f64, slope: f64) -> f64 {
+    CLOSED * (LEAST_SIZE + size) * slope
+}
+
+/// How much may be left behind impulses of rates up to one: more is left where constraints depend on others.
+pub(crate) fn left_of(fastest: f64) -> f64 {
+    LEFT * fastest
+}
+
+/// Leads velocities to the constraints of the modes that hold, at the start or the end of a step of `h` seconds.
+///
+/// # Errors
+/// [`Error::Apart`], [`Error::Impact`].
+pub(crate) fn engage<T: Real>(
+    equations: &dyn Equations<T>,
+    (h, changes): (T, Changes<'_, T>),
+    (t, q, v): (T, &[T], &mut [T]),
+    inputs: &[T],
+) -> Result<(), Error> {
+    let info = equations.info();
+    let locked = locked(info, inputs);
+    if locked == 0 {
+        return Ok(());
+    }
+    let gaps = Gaps::of(equations, At { t, q, v }, changes.still);
+    let size = vectors::largest(info.of_bodies(q)).1.to_f64();
+    let fastest = vectors::largest(info.of_bodies(v)).1.to_f64();
+    vectors::fill(changes.v, T::ZERO);
+    let resting = held(equations, inputs) & all_stops(info);
+    let answered = Contacts::at(equations, (t, q), |contacts| {
+        let way = |row: usize| STEPS * h.to_f64() * number(&gaps.rate, row).abs();
+        let allowed = |row: usize| allowed(size, contacts.slope(row)) + way(row);
+        are_met(info, t.to_f64(), locked, |row| number(&gaps.gap, row), allowed)?;
+        // written so that a NaN is no growth
+        let has_growth = contacts.growth() < growth_limit();
+        let solved = contacts.complementary(resting | locked, locked, &gaps.rate).filter(|_| has_growth);
+        let (_, impulses) = solved.ok_or_else(|| unanswered(info, t.to_f64(), locked))?;
+        let left = contacts.rates(&impulses);
+        let after = |row: usize| number(&gaps.rate, row) + number(&left, row);
+        let left = |row: usize| left_of(number(&gaps.rate, row).abs() + contacts.slope(row) * fastest);
+        are_met(info, t.to_f64(), locked, after, left)?;
+        contacts.add(&impulses, changes.v);
+        Ok(())
+    });
+    answered.unwrap_or(Ok(()))?;
+    vectors::zip_map(v, changes.v, |v, change| v + change);
+    Ok(())
+}
+
+/// Leads positions to the constraints of the modes that hold, where these were entered at the end of a step; stops that are
+/// rested on stay closed.
+pub(crate) fn close<T: Real>(
+    equations: &dyn Equations<T>,
+    changes: Changes<'_, T>,
+    (t, q, v): (T, &mut [T], &[T]),
+    inputs: &[T],
+) {
+    let info = equations.info();
+    let locked = locked(info, inputs);
+    let set = locked | held(equations, inputs) & all_stops(info);
+    for _ in 0..CLOSINGS {
+        let gap = Gaps::of(equations, At { t, q, v }, changes.still).gap;
+        vectors::fill(changes.q, T::ZERO);
+        Contacts::at(equations, (t, q), |contacts| contacts.add(&contacts.solve(set, &gap), changes.q));
+        vectors::zip_map(q, changes.q, |q, change| q + change);
+    }
+}
+
+/// Notes on which side of its condition every transition is at a start.
+pub(crate) fn look<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &mut [T]) {
+    let values = values(equations, at, inputs);
+    for (transition, value) in equations.info().modes.transitions.iter().zip(values) {
+        if let Some(to) = inputs.get_mut(transition.memory) {
+            *to = value;
+        }
+    }
+}
+
+/// The transitions whose conditions have begun to hold, and what their memories are from then on.
+pub(crate) fn due<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &[T]) -> (u32, Each<T>) {
+    let (mut due, mut seen) = (0, values(equations, at, inputs));
+    for ((of, transition), value) in equations.info().modes.transitions.iter().enumerate().zip(&mut seen) {
+        let side = if transition.is_rising { 1.0 } else { -1.0 };
+        let (before, now) = (inputs.get(transition.memory).map_or(0.0, |seen| seen.to_f64()), value.to_f64());
+        let size = before.abs().max(now.abs());
+        let holds = side * now > 0.0 || now.abs() <= ROUNDING * before.abs();
+        if side * before < 0.0 && holds {
+            due |= bit(of);
+        }
+        *value = T::from_f64(if holds { side * size } else { -side * size });
+    }
+    (due, seen)
+}
+
+/// Takes the samples of the transitions whose conditions have begun to hold, and of those whose conditions do by that. Gives
+/// them.
+///
+/// # Errors
+/// [`Error::EndlessEvents`] where they follow each other without an end.
+pub(crate) fn pass<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &mut [T],
+) -> Result<u32, Error> {
+    let info = equations.info();
+    let mut all = 0;
+    for _ in 0..=IN_SEQUENCE {
+        let (due, seen) = due(equations, at, inputs);
+        for (transition, seen) in info.modes.transitions.iter().zip(seen) {
+            if let Some(to) = inputs.get_mut(transition.memory) {
+                *to = seen;
+            }
+        }
+        if due == 0 {
+            return Ok(all);
+        }
+        all |= due;
+        for of in (0..info.modes.transitions.len()).filter(|of| has(due, *of)) {
+            equations.sample(at, inputs, info.sampling.clocks + of);
+        }
+    }
+    let first = info.modes.transitions.get(all.trailing_zeros() as usize);
+    let name = first.map_or("", |transition| transition.condition);
+    Err(Error::EndlessEvents { t: at.t.to_f64(), name, index: 0 })
+}
+
+/// The value of every transition.
+pub(crate) fn values<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &[T]) -> Each<T> {
+    let mut values = [T::ZERO; MOST_CONTACTS];
+    let count = equations.info().modes.transitions.len();
+    if let Some(values) = values.get_mut(..count) {
+        equations.transitions(at, inputs, values);
+    }
+    values
+}
