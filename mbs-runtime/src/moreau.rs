@@ -235,7 +235,7 @@ impl<'a, T: Real> Striking<'a, T> {
             if part < one { one - part } else { T::ZERO }
         });
         let shift =
-            core::array::from_fn(|stop| if has(pushed, stop) { T::ZERO } else { of(&rest, stop) * h });
+            core::array::from_fn(|row| if has(pushed | locked, row) { T::ZERO } else { of(&rest, row) * h });
         let [before, now] = &ends.rate;
         let change = zip(now, before, |now, before| now - before);
         Self { contacts, count, locked, restitutions, ends, change, rest, shift }

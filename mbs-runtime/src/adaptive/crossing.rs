@@ -108,8 +108,11 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         for (index, bit) in stops.chain(bits(watched.count)).filter(|(_, bit)| at_events & bit != 0) {
             let is_rising = rising & bit != 0;
             let Beginning { value, rounding, is_zero, .. } = self.beginning(index, watched);
+            let is_transition = gaps::transition_in(self.dynamics.equations(), index).is_some();
             let is_turned = match judged & bit != 0 {
                 true => turned & bit != 0,
+                // what it has set may turn its value around
+                false if is_transition => false,
                 false => self.is_turned(index, is_rising, rounding, watched),
             };
             if is_zero || self.is_held_by_others(index, watched) {

@@ -68,6 +68,7 @@ const WRITTEN: &[&str] = &[
     include_str!("../../corpus/valid_stops.txt"),
     include_str!("../../corpus/valid_sticking.txt"),
     include_str!("../../corpus/valid_contact.txt"),
+    include_str!("../../corpus/valid_modes.txt"),
     include_str!("../../corpus/valid_swing.txt"),
     include_str!("../../corpus/valid_transmissions.txt"),
     include_str!("../../corpus/valid_valve_drive.txt"),

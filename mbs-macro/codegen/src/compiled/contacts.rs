@@ -68,10 +68,12 @@ impl Compiled {
         if contacts == 0 { 0 } else { contacts * response + 1 }
     }
 
-    /// The place of the first memory of every stop, and behind them of every friction that sticks.
+    /// The place of the first memory of every stop, behind them of every friction that sticks, and behind these of the modes
+    /// of constraints.
     pub fn contact_memories(&self) -> impl Iterator<Item = usize> {
         let frictions = self.frictions.iter().map(|friction| friction.memory);
-        self.stops.iter().map(|stop| stop.memory).chain(frictions)
+        let modes = self.locks.iter().map(|lock| lock.mode);
+        self.stops.iter().map(|stop| stop.memory).chain(frictions).chain(modes)
     }
 
     /// The number of stops, of frictions that stick and of constraints of modes.

@@ -239,7 +239,10 @@ impl Scope<'_> {
                 name.span(),
                 format!("the multiplier of `{text}` cannot stand here"),
             )
-            .help(place.rule()));
+            .help(match known.position {
+                Some(_) => place.rule(),
+                None => "a run finds the forces of a mode behind all others: ask for them in an `output`",
+            }));
         }
         if known.is_broken {
             // fits everywhere: no second error for the same cause

@@ -6,8 +6,10 @@
 //!
 //! A transition is a sample whose time is where a condition begins to hold.
 
+use std::collections::BTreeSet;
+
 use mbs_symbolic::units::{Dimension, Unit};
-use mbs_symbolic::{Algebra, Expr, Stage};
+use mbs_symbolic::{Algebra, Expr, Stage, Symbol};
 use proc_macro2::Ident;
 
 use super::declare::quantity;
@@ -15,7 +17,7 @@ use super::known::{Row, Value};
 use super::names::Place;
 use super::resolver::Resolver;
 use super::{Constraint, Contact, Lock, Meaning, Mode, Transition};
-use crate::diagnostics::{Diagnostic, described};
+use crate::diagnostics::{Diagnostic, described, listing, nearest};
 use crate::quantity::{Comparison, Setting};
 use crate::syntax::{Declaration, ItemKind, When};
 
@@ -108,6 +110,21 @@ impl Resolver<'_> {
         self.contact_with((gap, rate, curved), slopes)
     }
 
+    /// A mode by its name: the place of its memory among the inputs, and its symbol.
+    pub(super) fn mode(&mut self, name: &Ident) -> Option<(usize, Symbol)> {
+        if let Some(mode) = self.modes.iter().find(|mode| mode.name == *name) {
+            return Some((mode.memory, self.scope.symbol_of(Meaning::Input(mode.memory))?));
+        }
+        let names: Vec<String> = self.modes.iter().map(|mode| mode.name.to_string()).collect();
+        let help = match nearest(&name.to_string(), names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if names.is_empty() => "declare one: `mode engaged { fixed lock (plate, wheel); }`".to_owned(),
+            None => format!("the modes are {}", listing(&names)),
+        };
+        self.errors.push(Diagnostic::new(name.span(), format!("there is no mode `{name}`")).help(help));
+        None
+    }
+
     /// Whether a mode holds at first.
     pub(super) fn check_mode(&mut self, name: &Ident, value_span: proc_macro2::Span) {
         let value = self.inputs.iter().find(|input| *name == input.quantity.name).map(|input| input.value);
@@ -142,7 +159,7 @@ impl Resolver<'_> {
             let help = "write it in positions, velocities, inputs or time, as in `when x < 0 [m] { … }`";
             return refuse("this never begins to hold: nothing that changes is left in it", help);
         }
-        if sets.is_empty() {
+        if when.sets.is_empty() {
             let help =
                 "enter or leave a mode in it, or give a memory a value: `when x < 0 [m] { enter latched; }`";
             return refuse("this `when` does nothing", help);
@@ -159,19 +176,21 @@ impl Resolver<'_> {
 
     /// Refuses modes that are never entered, and what does not go with modes.
     pub(super) fn check_modes(&mut self, declaration: &Declaration) {
-        let of_clocks = self.clocks.iter().flat_map(|clock| &clock.sets);
-        let of_transitions = self.transitions.iter().flat_map(|transition| &transition.sets);
-        let set: Vec<usize> = of_clocks.chain(of_transitions).map(|(memory, _)| *memory).collect();
+        let sets = declaration.items.iter().flat_map(|item| match &item.kind {
+            ItemKind::Every(every) => every.sets.as_slice(),
+            ItemKind::When(when) => when.sets.as_slice(),
+            _ => &[],
+        });
+        let set: BTreeSet<String> = sets.map(|set| set.memory.to_string()).collect();
         for item in &declaration.items {
             let ItemKind::Mode { name, rows, .. } = &item.kind else { continue };
             let mut refuse = |message: String, help: String| {
                 self.errors.push(Diagnostic::new(name.span(), message).help(help));
             };
-            let Some(mode) = self.modes.iter().find(|mode| mode.name == *name) else { continue };
             if rows.is_empty() {
                 let help = format!("`mode {name} {{ fixed lock (plate, wheel); }}`, or take a `memory`");
                 refuse(format!("nothing holds in `{name}`"), help);
-            } else if !set.contains(&mode.memory) {
+            } else if !set.contains(&name.to_string()) {
                 let help = format!("say when, as in `when x < 0 [m] {{ enter {name}; }}`");
                 refuse(format!("nothing enters or leaves `{name}`"), help);
             }

@@ -78,7 +78,8 @@ impl Resolver<'_> {
         let mut found: Vec<(usize, Expr)> = Vec::new();
         let mut known: HashMap<Symbol, Expr> = HashMap::default();
         for set in sets {
-            let Some((memory, symbol)) = self.memory(&set.memory) else { continue };
+            let memory = if set.is_of_mode { self.mode(&set.memory) } else { self.memory(&set.memory) };
+            let Some((memory, symbol)) = memory else { continue };
             let what = format!("the value of `{}`", set.memory);
             let dimension = self.inputs[memory].quantity.dimension;
             let value =
@@ -178,8 +179,9 @@ impl Resolver<'_> {
 
     /// A `set` that belongs to no clock.
     pub(super) fn set_outside(&mut self, set: &Set) {
-        let message = format!("nothing says when `{}` is set", set.memory);
-        let help = format!("put it in a clock, `every 1 [ms] {{ … }}`, or in a `when x < 0 [m] {{ … }}`");
+        let done = if set.is_of_mode { "entered or left" } else { "set" };
+        let message = format!("nothing says when `{}` is {done}", set.memory);
+        let help = "put it in a clock, `every 1 [ms] { … }`, or in a `when x < 0 [m] { … }`";
         self.errors.push(Diagnostic::new(set.memory.span(), message).help(help));
     }
 }

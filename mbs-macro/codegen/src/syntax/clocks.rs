@@ -25,6 +25,8 @@ pub struct Set {
     pub prefix: Vec<Ident>,
     pub memory: Ident,
     pub value: Formula,
+    /// True of `enter` and `leave`, which a mode alone may stand behind.
+    pub is_of_mode: bool,
 }
 
 /// `memory integral [rad] = 0;`
@@ -42,7 +44,7 @@ pub(super) fn set(input: ParseStream<'_>) -> Result<ItemKind> {
     equals(input)?;
     let value = input.parse()?;
     semicolon(input)?;
-    Ok(ItemKind::Set(Set { prefix, memory, value }))
+    Ok(ItemKind::Set(Set { prefix, memory, value, is_of_mode: false }))
 }
 
 /// What is done at a moment.

@@ -32,7 +32,7 @@ fn switch(input: ParseStream<'_>, keyword: Span, value: i64) -> Result<ItemKind>
     let mut prefix = path(input)?;
     let memory = prefix.pop().ok_or_else(|| input.error("a mode is expected here"))?;
     semicolon(input)?;
-    Ok(ItemKind::Set(Set { prefix, memory, value: Formula::whole(value, keyword) }))
+    Ok(ItemKind::Set(Set { prefix, memory, value: Formula::whole(value, keyword), is_of_mode: true }))
 }
 
 /// The name of a mode, and whether it holds at first.

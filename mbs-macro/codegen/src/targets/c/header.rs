@@ -79,12 +79,15 @@ fn counts(target: &Target<'_>) -> String {
     let of_clocks = [("CLOCKS", *clocks), ("MEMORIES", *memories), ("SAMPLES", samples.len())];
     let of_stops = [
         ("STOPS", compiled.stops.len()),
+        ("OWN_ROWS", compiled.contacts() - compiled.locks.len()),
         ("ROWS", compiled.contacts()),
         ("CONTACTS", compiled.length(Results::Contacts)),
     ];
-    let of_clocks = of_clocks.into_iter().filter(|_| *clocks > 0);
+    let of_transitions = [("TRANSITIONS", compiled.transitions.len())];
+    let of_clocks = of_clocks.into_iter().filter(|_| !samples.is_empty());
+    let of_transitions = of_transitions.into_iter().filter(|_| !compiled.transitions.is_empty());
     let of_stops = of_stops.into_iter().filter(|_| compiled.contacts() > 0);
-    for (name, count) in others.into_iter().chain(of_clocks).chain(of_stops) {
+    for (name, count) in others.into_iter().chain(of_clocks).chain(of_transitions).chain(of_stops) {
         let _ = writeln!(text, "    {capitals}_{name} = {count},");
     }
     text + "};\n\n"

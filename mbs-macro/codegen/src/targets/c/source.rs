@@ -20,7 +20,7 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
     } else {
         "run->is_held ? NAME_step_held(run, t_next) : NAME_step_per_stage(run, t_next)"
     };
-    let has_stops = target.compiled.contacts() > 0;
+    let [contacts, jumps] = [contacts(target.compiled), jumps(target.compiled)];
     let code = [
         kernels.iter().map(Kernel::text).collect(),
         target.fill(include_str!("text/vectors.c")),
@@ -30,14 +30,9 @@ pub fn source(target: &Target<'_>, kernels: &[Kernel], fused: &[Kernel]) -> Stri
         target.fill(&within(target.compiled, &beginning(target.compiled, include_str!("text/start.c")))),
         target.fill(include_str!("text/step.c")),
         fused.iter().map(Kernel::text).collect(),
-        target.fill(if has_stops { include_str!("text/contacts.c") } else { "" }),
-        target.fill(if has_stops { include_str!("text/sticking.c") } else { "" }),
+        target.fill(&contacts),
         target.fill(&within(target.compiled, &results(target.compiled)).replace("STEP", step)),
-        target.fill(&if has_stops {
-            unsampled(target.compiled, include_str!("text/stops.c"))
-        } else {
-            String::new()
-        }),
+        target.fill(&unsampled(target.compiled, &jumps)),
         target.fill(if target.compiled.sampling.clocks > 0 { include_str!("text/clocks.c") } else { "" }),
     ];
     let code = code.concat();
@@ -58,12 +53,38 @@ fn default_inputs(target: &Target<'_>) -> &'static str {
     if target.compiled.has_declared_inputs() { include_str!("text/inputs.c") } else { "" }
 }
 
+/// Contacts, with frictions that stick and modes that hold; nothing without one.
+fn contacts(compiled: &Compiled) -> String {
+    match compiled.contacts() {
+        0 => String::new(),
+        _ => [include_str!("text/contacts.c"), include_str!("text/sticking.c")].concat(),
+    }
+}
+
+/// What may jump at the end of a step: velocities at stops and where modes are entered, and memories by transitions.
+fn jumps(compiled: &Compiled) -> String {
+    if !compiled.jumps() {
+        let has_samples = !compiled.sampling.samples.is_empty();
+        return if has_samples { include_str!("text/samples.c").to_owned() } else { String::new() };
+    }
+    let samples = if compiled.sampling.samples.is_empty() { "" } else { include_str!("text/samples.c") };
+    let transitions = match compiled.transitions.is_empty() {
+        true => include_str!("text/no_transitions.c"),
+        false => include_str!("text/transitions.c"),
+    };
+    let steps: &[&str] = match compiled.contacts() {
+        0 => &[include_str!("text/stepped_transitions.c")],
+        _ => &[include_str!("text/modes.c"), include_str!("text/stops.c")],
+    };
+    [samples, transitions, &steps.concat()].concat()
+}
+
 /// The functions that start and step a run. Clocks and stops have their own around them.
 const STARTS_AND_STEPS: [&str; 3] = ["start", "start_from", "step"];
 
 /// A text whose starts and steps are those within what stops, or else clocks, do.
 fn within(compiled: &Compiled, text: &str) -> String {
-    if compiled.contacts() == 0 {
+    if !compiled.jumps() {
         return unsampled(compiled, text);
     }
     STARTS_AND_STEPS.into_iter().fold(text.to_owned(), |text, name| {
@@ -84,7 +105,7 @@ fn unsampled(compiled: &Compiled, text: &str) -> String {
 /// The functions that a run is asked with. What stops and frictions do has a part in them where there are any.
 fn results(compiled: &Compiled) -> String {
     let text = include_str!("text/results.c");
-    let holds = !compiled.frictions.is_empty();
+    let holds = compiled.frictions.len() + compiled.locks.len() > 0;
     let lines = text.split_inclusive('\n').filter(|line| {
         (compiled.contacts() > 0 || !line.contains("NAME_press("))
             && (holds
@@ -166,18 +187,28 @@ fn tables(target: &Target<'_>) -> String {
     add("static const int NAME_redundant[]", redundant, "0");
     // a dimension with fractions is none of a constraint or a coordinate
     let length = |dimension: Dimension| dimension.exponents().map_or(0, |[_, length, ..]| length).to_string();
-    if compiled.sampling.clocks > 0 {
+    if !compiled.sampling.samples.is_empty() {
         let samples = compiled.sampling.samples.iter();
         let places = samples.map(|[clock, memory]| format!("{{{clock}, {memory}}}")).collect();
         let declaration =
-            "/* The clock and the memory of every sample. */\nstatic const int NAME_sample_places[][2]";
+            "/* The clock, or behind them the transition, and the memory of every sample. */\nstatic const int NAME_sample_places[][2]";
         add(declaration, places, "{0, 0}");
     }
     if compiled.contacts() > 0 {
         let places = compiled.contact_memories().map(|memory| memory.to_string()).collect();
-        let declaration = "/* The first memory of every stop, and behind them of every friction that sticks. */\nstatic const int \
-             NAME_memories[]";
+        let declaration = "/* The first memory of every stop, behind them of every friction that sticks, and those of the \
+                           modes of constraints. */\nstatic const int NAME_memories[]";
         add(declaration, places, "0");
+        let multipliers = compiled.locks.iter().map(|lock| lock.held.to_string()).collect();
+        let declaration = "/* The memories of the multipliers of modes. */\nstatic const int NAME_multipliers[]";
+        add(declaration, multipliers, "0");
+    }
+    if !compiled.transitions.is_empty() {
+        let side = |is_rising| if is_rising { 1 } else { -1 };
+        let sides = compiled.transitions.iter().map(|it| format!("{{{}, {}}}", it.memory, side(it.is_rising)));
+        let declaration =
+            "/* The memory of every transition, and the sign with which it holds. */\nstatic const int NAME_sides[][2]";
+        add(declaration, sides.collect(), "{0, 0}");
     }
     let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
     add(

@@ -105,7 +105,7 @@ fn numbers(compiled: &Compiled, references: &References, experiment: Experiment)
         gains(simulation),
         gains(Feedback { is_held: false, ..exchange }),
         u8::from(compiled.choices.feedback.is_some()),
-        u8::from(compiled.contacts() > 0),
+        u8::from(compiled.jumps()),
     );
     text
 }

@@ -60,7 +60,7 @@ impl Description<'_> {
     /// Model exchange and co-simulation, with what both can do. Impacts at stops are seen by co-simulation alone, and have
     /// no derivatives.
     fn interfaces(&self, version: Version) -> Vec<Element> {
-        let is_smooth = self.compiled.contacts() == 0;
+        let is_smooth = !self.compiled.jumps();
         let interface = |name| {
             let it = Element::new(name).with("modelIdentifier", self.identifier);
             match version {

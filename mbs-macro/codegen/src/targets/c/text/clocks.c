@@ -8,14 +8,7 @@ static double NAME_steps_of(const struct NAME_run *run, double seconds)
 
 void NAME_sample(struct NAME_run *run, int clock)
 {
-    const struct NAME_state *const at = &run->state;
-    real values[CAPS_SAMPLES + 1] = {0};
-    NAME_compute_samples(run->mechanism, at->t, &at->q, &at->v, &run->inputs, values);
-    for (int sample = 0; sample < CAPS_SAMPLES; sample++) {
-        if (NAME_sample_places[sample][0] == clock) {
-            NAME_places(&run->inputs)[NAME_sample_places[sample][1]] = values[sample];
-        }
-    }
+    NAME_take_sample(run, clock);
 }
 
 /* Takes the samples that are due, in the order of the clocks. */

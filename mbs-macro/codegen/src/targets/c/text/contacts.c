@@ -1,4 +1,5 @@
-/* Contacts: the gaps of stops, and behind them the ways of frictions that stick. Responses to unit impulses along them. */
+/* Contacts: the gaps of stops, behind them the ways of frictions that stick, and behind these the constraints of modes.
+   Responses to unit impulses along them. */
 
 /* The change of the rate of one gap by a unit impulse at a stop. */
 static real NAME_mobility(const real *contacts, int of, int by)
@@ -130,13 +131,15 @@ static void NAME_add_responses(const real *contacts, const real *x, int from, in
     }
 }
 
-/* Marks the stops that are rested on and the frictions that stick; true if there is one. */
+/* Marks the stops that are rested on, the frictions that stick and the constraints of modes that hold; true if there is
+   one. */
 static int NAME_find_held(const struct NAME_run *run, int *held)
 {
     int is_held = 0;
     for (int row = 0; row < CAPS_ROWS; row++) {
         const real memory = NAME_elements(&run->inputs)[NAME_memories[row]];
-        held[row] = row < CAPS_STOPS ? memory > (real)0.5 : fabs((double)memory) < 0.5;
+        const int is_friction = row >= CAPS_STOPS && row < CAPS_OWN_ROWS;
+        held[row] = is_friction ? fabs((double)memory) < 0.5 : memory > (real)0.5;
         is_held = is_held || held[row];
     }
     return is_held;

@@ -14,7 +14,28 @@ static void NAME_set_friction(struct NAME_run *run, int row, double direction, r
     memory[1] = held;
 }
 
-/* The first stop or friction of a set has no answer. */
+/* Marks the constraints of the modes that hold; true if there is one. */
+static int NAME_find_locked(const struct NAME_run *run, int *locked)
+{
+    const int is_held = NAME_find_held(run, locked);
+    int is_locked = 0;
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        locked[row] = is_held && row >= CAPS_OWN_ROWS && locked[row];
+        is_locked = is_locked || locked[row];
+    }
+    return is_locked;
+}
+
+/* Sets the memories of the multipliers of the constraints of modes that hold. */
+static void NAME_note_multipliers(struct NAME_run *run, const int *held, const real *forces)
+{
+    for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
+        const real force = held[row] ? forces[row] : 0;
+        NAME_places(&run->inputs)[NAME_multipliers[row - CAPS_OWN_ROWS]] = -force;
+    }
+}
+
+/* The first of a set of contacts has no answer. */
 static int NAME_unanswered(struct NAME_run *run, const int *set)
 {
     int first = 0;
@@ -22,7 +43,7 @@ static int NAME_unanswered(struct NAME_run *run, const int *set)
         first++;
     }
     run->where = NAME_memories[first];
-    return first < CAPS_STOPS ? CAPS_IMPACT : CAPS_JAMMED;
+    return first < CAPS_STOPS ? CAPS_IMPACT : first < CAPS_OWN_ROWS ? CAPS_JAMMED : CAPS_APART;
 }
 
 /* Adds to rates of gaps their changes by impulses. */
@@ -47,7 +68,7 @@ static int NAME_without_hold(
         const double size = fabs((double)a[at]);
         largest = size > largest ? size : largest;
     }
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         const double size = fabs(left[row]);
         if (set[row] && size > 1e-6 * fabs((double)b[row]) && size > 1e-9 * largest) {
             return row;
@@ -62,7 +83,7 @@ static int NAME_loose(const int *set, const real *forces, const real *limits)
 {
     int loose = -1;
     double worst = 0;
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         const double force = fabs((double)forces[row]), most = (double)limits[2 * (row - CAPS_STOPS) + 1];
         /* what has no largest force does not stick */
         const double beyond = !(most > 0) ? HUGE_VAL : force > (1.0 + 1e-12) * most ? force / most : 0;
@@ -80,15 +101,16 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
     const struct NAME *const m = run->mechanism;
     const struct NAME_state *const at = &run->state;
     const struct NAME_constraints no_feedback = {0};
-    int sticking[CAPS_ROWS], set[CAPS_ROWS];
+    int sticking[CAPS_ROWS], bound[CAPS_ROWS], set[CAPS_ROWS], locked[CAPS_ROWS];
+    NAME_find_locked(run, locked);
     for (int row = 0; row < CAPS_ROWS; row++) {
         sticking[row] = still[row];
     }
-    for (int tries = 0; tries <= 8 * (CAPS_ROWS - CAPS_STOPS); tries++) {
+    for (int tries = 0; tries <= 8 * (CAPS_OWN_ROWS - CAPS_STOPS); tries++) {
         struct NAME_reactions reactions = {0};
         real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, limits[2 * CAPS_ROWS] = {0}, b[CAPS_ROWS];
         int turned = -1;
-        for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
             if (sticking[row]) {
                 NAME_set_friction(run, row, 0, 0);
             }
@@ -100,9 +122,10 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
         NAME_compute_contacts(m, at->t, &at->q, contacts);
         for (int row = 0; row < CAPS_ROWS; row++) {
             b[row] = gaps[3 * row + 2];
-            set[row] = resting[row] || sticking[row];
+            bound[row] = sticking[row] || locked[row];
+            set[row] = resting[row] || bound[row];
         }
-        if (!NAME_complementary(contacts, set, sticking, b, forces)) {
+        if (!NAME_complementary(contacts, set, bound, b, forces)) {
             return NAME_unanswered(run, set);
         }
         NAME_add_responses(contacts, forces, 0, CAPS_COORDINATES, NAME_places(&reactions.acceleration));
@@ -116,7 +139,7 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
             continue;
         }
         double left[CAPS_ROWS] = {0};
-        for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
             real change = 0;
             for (int by = 0; by < CAPS_ROWS; by++) {
                 change = change + NAME_mobility(contacts, row, by) * forces[by];
@@ -129,7 +152,7 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
             sticking[slipping] = 0;
             continue;
         }
-        for (int row = CAPS_ROWS - 1; row >= CAPS_STOPS; row--) {
+        for (int row = CAPS_OWN_ROWS - 1; row >= CAPS_STOPS; row--) {
             const double own = (double)NAME_mobility(contacts, row, row);
             const double least = 2.0 * 1e-6 * own * (double)limits[2 * (row - CAPS_STOPS) + 1];
             if (still[row] && !sticking[row] && least > 0 && NAME_direction(run, row) * left[row] < -least) {
@@ -140,29 +163,34 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
             sticking[turned] = 1;
             continue;
         }
-        for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
             if (sticking[row]) {
                 NAME_set_friction(run, row, 0, forces[row]);
             }
         }
+        NAME_note_multipliers(run, locked, forces);
         return CAPS_OK;
     }
     return NAME_unanswered(run, still);
 }
 
-/* Sets the memories of the forces with which frictions stick. */
+/* Sets the memories of the forces with which frictions stick and modes hold. */
 static void NAME_hold(struct NAME_run *run)
 {
     const struct NAME_state *const at = &run->state;
     const struct NAME_constraints no_feedback = {0};
     struct NAME_reactions reactions = {0};
-    real forces[CAPS_ROWS];
+    real forces[CAPS_ROWS] = {0};
     int held[CAPS_ROWS], is_held = 0;
+    const int none[CAPS_ROWS] = {0};
     NAME_find_held(run, held);
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         NAME_set_friction(run, row, NAME_direction(run, row), 0);
+    }
+    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
         is_held = is_held || held[row];
     }
+    NAME_note_multipliers(run, none, forces);
     if (!is_held) {
         return;
     }
@@ -170,11 +198,12 @@ static void NAME_hold(struct NAME_run *run)
         run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions.acceleration,
         &reactions.multipliers);
     NAME_press_with(run, held, &reactions, forces);
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         if (held[row]) {
             NAME_set_friction(run, row, 0, forces[row]);
         }
     }
+    NAME_note_multipliers(run, held, forces);
 }
 
 /* Sets the directions of the frictions that move at a start; marks those that do not. */
@@ -187,7 +216,7 @@ static void NAME_slide(struct NAME_run *run, int *still)
     real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0};
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &unmoved, gaps);
     NAME_compute_contacts(m, at->t, &at->q, contacts);
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         const double own = (double)NAME_mobility(contacts, row, row), rate = (double)gaps[3 * row + 1];
         still[row] = fabs(rate) <= 1e-9 * sqrt(2.0 * (energy > 0 ? energy : 0) * (own > 0 ? own : 0));
         if (!still[row]) {
@@ -216,7 +245,7 @@ static void NAME_begin_halt(
     const real *limits, struct NAME_halting *it)
 {
     const real h = run->step, half = (real)0.5;
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         const int at = 2 * (row - CAPS_STOPS);
         const real sliding = limits[at], sticking = limits[at + 1];
         it->halted[row] = stuck[row] || crossed[row];
@@ -266,19 +295,20 @@ static void NAME_find_halts(
     }
 }
 
-/* What leads back to where they were what stuck in the whole step; stops that are rested on stay where they are. */
+/* What leads back to where they were what stuck in the whole step, and to the constraints of modes; stops that are rested on
+   stay where they are. */
 static void NAME_find_way_back(
-    const real *contacts, const int *stuck, const int *resting, const real *was, const real *now,
+    const real *contacts, const int *stuck, const int *resting, const int *locked, const real *was, const real *now,
     const struct NAME_halting *it, const real *moved, real *back)
 {
     real slipped[CAPS_ROWS];
     int set[CAPS_ROWS], is_held = 0;
     for (int row = 0; row < CAPS_ROWS; row++) {
         const int held = it->halted[row] && stuck[row];
-        slipped[row] = held ? now[3 * row] - was[3 * row] : 0;
+        slipped[row] = locked[row] ? now[3 * row] : held ? now[3 * row] - was[3 * row] : 0;
         set[row] = held || resting[row];
         back[row] = 0;
-        is_held = is_held || held;
+        is_held = is_held || held || locked[row];
     }
     if (is_held) {
         NAME_change_rates(contacts, moved, slipped);
@@ -299,16 +329,20 @@ static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_
     real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, limits[2 * CAPS_ROWS] = {0};
     real contacts[CAPS_CONTACTS] = {0}, forces[CAPS_ROWS], impulses[CAPS_ROWS], moved[CAPS_ROWS];
     real back[CAPS_ROWS], ends[3 * CAPS_ROWS], rates[CAPS_ROWS];
-    int held[CAPS_ROWS], stuck[CAPS_ROWS] = {0}, crossed[CAPS_ROWS] = {0}, has_acted = 0, acts[CAPS_ROWS] = {0};
-    if (CAPS_ROWS == CAPS_STOPS) {
+    int held[CAPS_ROWS], locked[CAPS_ROWS], stuck[CAPS_ROWS] = {0}, crossed[CAPS_ROWS] = {0}, acts[CAPS_ROWS] = {0};
+    int has_acted = NAME_find_locked(run, locked);
+    if (CAPS_OWN_ROWS == CAPS_STOPS && !has_acted) {
         return CAPS_OK;
     }
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         stuck[row] = pushed[row];
         crossed[row] = NAME_direction(run, row) * (double)now[3 * row + 1] < 0;
         acts[row] = stuck[row] || crossed[row];
         has_acted = has_acted || acts[row];
+    }
+    for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
+        acts[row] = locked[row];
     }
     if (has_acted) {
         const int is_held = NAME_find_held(run, held);
@@ -324,14 +358,14 @@ static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_
         if (!(contacts[CAPS_CONTACTS - 1] < NAME_growth_limit)) {
             return NAME_unanswered(run, acts);
         }
-        for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
             held[row] = 0;
         }
         for (int row = 0; row < 3 * CAPS_ROWS; row++) {
             ends[row] = now[row];
         }
         /* sliding may come to a halt by the impulses of those that stick */
-        for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
             crossed[row] = 0;
         }
         int is_late = 1;
@@ -345,7 +379,7 @@ static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_
                 rates[row] = now[3 * row + 1];
             }
             NAME_change_rates(contacts, impulses, rates);
-            for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+            for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
                 if (!stuck[row] && !crossed[row] && NAME_direction(run, row) * (double)rates[row] < 0) {
                     ends[3 * row + 1] = rates[row];
                     crossed[row] = 1;
@@ -356,13 +390,13 @@ static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_
         for (int row = 0; row < CAPS_ROWS; row++) {
             moved[row] = impulses[row] * it.shift[row];
         }
-        NAME_find_way_back(contacts, stuck, held, was, now, &it, moved, back);
+        NAME_find_way_back(contacts, stuck, held, locked, was, now, &it, moved, back);
         NAME_add_responses(contacts, moved, 0, CAPS_COORDINATES, NAME_places(&of_q));
         NAME_add_responses(contacts, back, 0, CAPS_COORDINATES, NAME_places(&of_q));
         NAME_add_responses(contacts, impulses, 0, CAPS_COORDINATES, NAME_places(&of_v));
         NAME_add(NAME_places(&at->q), 1, NAME_elements(&of_q), CAPS_COORDINATES);
         NAME_add(NAME_places(&at->v), 1, NAME_elements(&of_v), CAPS_COORDINATES);
-        for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
             if (stuck[row] || crossed[row]) {
                 NAME_set_friction(run, row, it.directions[row], 0);
             }

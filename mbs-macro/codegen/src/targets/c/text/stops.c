@@ -22,10 +22,14 @@ static void NAME_rebound(const struct NAME_run *run, const real *rates, real *re
 
 /* The rates that forces at the stops of a set take from gaps in a step, in which gaps change their rates without them; 0
    where there are none. */
-static int NAME_hold_back(const real *contacts, const int *set, const real *change, real *taken)
+static int NAME_hold_back(
+    const real *contacts, const int *closed, const int *locked, const real *change, real *taken)
 {
-    const int none[CAPS_ROWS] = {0};
-    const int is_answered = NAME_complementary(contacts, set, none, change, taken);
+    int set[CAPS_ROWS];
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        set[row] = closed[row] || locked[row];
+    }
+    const int is_answered = NAME_complementary(contacts, set, locked, change, taken);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         taken[stop] = NAME_mobility(contacts, stop, stop) * taken[stop];
     }
@@ -42,11 +46,15 @@ static int NAME_push(struct NAME_run *run, int *pushed)
     if (!NAME_find_held(run, held)) {
         return CAPS_OK;
     }
+    int code = NAME_engage(run);
+    if (code != CAPS_OK) {
+        return code;
+    }
     for (int row = 0; row < CAPS_ROWS; row++) {
         resting[row] = row < CAPS_STOPS && held[row];
-        still[row] = row >= CAPS_STOPS && held[row];
+        still[row] = row >= CAPS_STOPS && row < CAPS_OWN_ROWS && held[row];
     }
-    const int code = NAME_decide(run, resting, still, forces);
+    code = NAME_decide(run, resting, still, forces);
     if (code != CAPS_OK) {
         return code;
     }
@@ -65,7 +73,7 @@ struct NAME_answer {
     real before[CAPS_ROWS], now[CAPS_ROWS], gap_now[CAPS_ROWS];
     /* the part of the step behind the closing of a gap, and what an impulse moves positions by */
     real rest[CAPS_ROWS], shift[CAPS_ROWS];
-    int closed[CAPS_ROWS], held[CAPS_ROWS], is_impact;
+    int closed[CAPS_ROWS], held[CAPS_ROWS], locked[CAPS_ROWS], is_impact;
     real impulses[CAPS_ROWS], moved[CAPS_ROWS], gaps[CAPS_ROWS];
 };
 
@@ -76,12 +84,16 @@ static int NAME_hit(
 {
     real change[CAPS_ROWS] = {0}, taken[CAPS_ROWS] = {0}, approach[CAPS_ROWS] = {0}, thrown[CAPS_ROWS] = {0}, wanted[CAPS_ROWS] = {0};
     real more[CAPS_ROWS] = {0};
-    const int none[CAPS_ROWS] = {0};
+    int set[CAPS_ROWS];
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        change[row] = it->now[row] - it->before[row];
+        wanted[row] = rates[row];
+        set[row] = closing[row] || it->locked[row];
+    }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        change[stop] = it->now[stop] - it->before[stop];
         approach[stop] = turn == 0 ? it->now[stop] - it->rest[stop] * change[stop] : rates[stop];
     }
-    if (!NAME_hold_back(contacts, it->closed, change, taken)) {
+    if (!NAME_hold_back(contacts, it->closed, it->locked, change, taken)) {
         return 0;
     }
     NAME_rebound(run, approach, thrown);
@@ -94,11 +106,11 @@ static int NAME_hit(
         const real target = it->held[stop] ? 0 : thrown[stop] + later;
         wanted[stop] = rates[stop] - (target > 0 ? target : 0);
     }
-    if (!NAME_complementary(contacts, closing, none, wanted, more)) {
+    if (!NAME_complementary(contacts, set, it->locked, wanted, more)) {
         return 0;
     }
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        it->impulses[stop] = it->impulses[stop] + more[stop];
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        it->impulses[row] = it->impulses[row] + more[row];
     }
     return 1;
 }
@@ -112,16 +124,16 @@ static int NAME_find_impulses(const struct NAME_run *run, const real *contacts, 
     for (int turn = 0; turn <= 16; turn++) {
         real rates[CAPS_ROWS] = {0};
         int closing[CAPS_ROWS] = {0}, hit[CAPS_ROWS] = {0}, is_hit = 0;
-        for (int stop = 0; stop < CAPS_STOPS; stop++) {
-            it->moved[stop] = it->impulses[stop] * it->shift[stop];
-            it->gaps[stop] = it->gap_now[stop];
-            rates[stop] = it->now[stop];
+        for (int row = 0; row < CAPS_ROWS; row++) {
+            it->moved[row] = it->impulses[row] * it->shift[row];
+            it->gaps[row] = it->gap_now[row];
+            rates[row] = it->now[row];
         }
         NAME_change_rates(contacts, it->moved, it->gaps);
         NAME_change_rates(contacts, it->impulses, rates);
         for (int stop = 0; stop < CAPS_STOPS; stop++) {
             double size = fabs((double)it->before[stop]) + fabs((double)it->now[stop]);
-            for (int by = 0; by < CAPS_STOPS; by++) {
+            for (int by = 0; by < CAPS_ROWS; by++) {
                 size = size + fabs((double)NAME_mobility(contacts, stop, by) * (double)it->impulses[by]);
             }
             it->closed[stop] = it->closed[stop] || it->gaps[stop] <= 0;
@@ -153,7 +165,7 @@ static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const stru
     struct NAME_constraints rows = {0};
     real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, rated[3 * CAPS_ROWS] = {0};
     real contacts[CAPS_CONTACTS] = {0}, shifts[CAPS_ROWS] = {0};
-    int is_closed = 0;
+    int set[CAPS_ROWS], is_closed = 0;
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         it.closed[stop] = pushed[stop] || now[3 * stop] <= 0;
@@ -173,21 +185,27 @@ static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const stru
     }
     NAME_compute_gaps(m, at->t, &at->q, &begun, &still, rated);
     NAME_compute_contacts(m, at->t, &at->q, contacts);
+    NAME_find_locked(run, it.locked);
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        it.gap_now[row] = now[3 * row];
+        it.before[row] = rated[3 * row + 1];
+        it.now[row] = now[3 * row + 1];
+    }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         const real gap = was[3 * stop], end = now[3 * stop];
         const real part = gap > 0 && end < gap ? gap / (gap - end) : 0;
-        it.gap_now[stop] = end;
-        it.before[stop] = rated[3 * stop + 1];
-        it.now[stop] = now[3 * stop + 1];
         it.rest[stop] = part < 1 ? 1 - part : 0;
         it.shift[stop] = pushed[stop] ? 0 : it.rest[stop] * run->step;
     }
     if (!NAME_find_impulses(run, contacts, &it)) {
         return NAME_unanswered(run, it.closed);
     }
-    NAME_solve_at_stops(contacts, it.held, it.gaps, shifts);
-    for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        shifts[stop] = it.moved[stop] + shifts[stop];
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        set[row] = it.held[row] || it.locked[row];
+    }
+    NAME_solve_at_stops(contacts, set, it.gaps, shifts);
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        shifts[row] = it.moved[row] + shifts[row];
     }
     NAME_add_responses(contacts, shifts, 0, CAPS_COORDINATES, NAME_places(&of_q));
     NAME_add_responses(contacts, it.impulses, 0, CAPS_COORDINATES, NAME_places(&of_v));
@@ -210,7 +228,9 @@ static int NAME_touch(struct NAME_run *run)
     real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, thrown[CAPS_ROWS] = {0}, taken[CAPS_ROWS] = {0};
     real b[CAPS_ROWS] = {0}, forces[CAPS_ROWS] = {0};
     const real none[CAPS_ROWS] = {0};
-    int closed[CAPS_ROWS] = {0}, settled[CAPS_ROWS] = {0}, still[CAPS_ROWS] = {0};
+    int closed[CAPS_ROWS] = {0}, settled[CAPS_ROWS] = {0}, still[CAPS_ROWS] = {0}, locked[CAPS_ROWS];
+    NAME_look(run);
+    NAME_find_locked(run, locked);
     NAME_slide(run, still);
     NAME_compute_reactions(
         run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions.acceleration,
@@ -222,12 +242,7 @@ static int NAME_touch(struct NAME_run *run)
     }
     NAME_rebound(run, b, thrown);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        const real *const slopes =
-            contacts + stop * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS) + CAPS_COORDINATES + CAPS_CONSTRAINTS;
-        double slope = 0;
-        for (int j = 0; j < CAPS_COORDINATES; j++) {
-            slope = slope + fabs((double)slopes[j]);
-        }
+        const double slope = NAME_slope(contacts, stop);
         if ((double)gaps[3 * stop] < -(size * slope)) {
             run->where = NAME_memories[stop];
             return CAPS_BEHIND;
@@ -235,7 +250,14 @@ static int NAME_touch(struct NAME_run *run)
         closed[stop] = (double)gaps[3 * stop] <= size * slope;
         b[stop] = run->step * gaps[3 * stop + 2];
     }
-    if (!NAME_hold_back(contacts, closed, b, taken)) {
+    for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
+        b[row] = run->step * gaps[3 * row + 2];
+        if (locked[row] && !(fabs((double)gaps[3 * row]) <= NAME_allowed(size / 1e-9, NAME_slope(contacts, row)))) {
+            run->where = NAME_memories[row];
+            return CAPS_APART;
+        }
+    }
+    if (!NAME_hold_back(contacts, closed, locked, b, taken)) {
         return NAME_unanswered(run, closed);
     }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
@@ -272,6 +294,7 @@ int NAME_step(struct NAME_run *run)
     code = code == CAPS_OK ? NAME_step_free(run) : code;
     code = code == CAPS_OK ? NAME_strike_stops(run, pushed, &before.state) : code;
     code = code == CAPS_OK ? NAME_halt(run, pushed, &before.state) : code;
+    code = code == CAPS_OK ? NAME_pass_and_engage(run) : code;
     if (code != CAPS_OK) {
         const int where = run->where;
         *run = before;

@@ -1,0 +1,106 @@
+/* Modes: constraints that hold with any force. */
+
+/* Sum of |dg/dq| of a contact. */
+static double NAME_slope(const real *contacts, int row)
+{
+    const real *const slopes =
+        contacts + row * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS) + CAPS_COORDINATES + CAPS_CONSTRAINTS;
+    double slope = 0;
+    for (int j = 0; j < CAPS_COORDINATES; j++) {
+        slope = slope + fabs((double)slopes[j]);
+    }
+    return slope;
+}
+
+/* How far a constraint may be off where its mode is entered. */
+static double NAME_allowed(double size, double slope)
+{
+    return 1e-6 * (1e-3 + size) * slope;
+}
+
+/* Leads velocities to the constraints of the modes that hold. */
+static int NAME_engage(struct NAME_run *run)
+{
+    const struct NAME *const m = run->mechanism;
+    struct NAME_state *const at = &run->state;
+    const struct NAME_reactions still = {0};
+    const double size = (double)NAME_largest(NAME_elements(&at->q), CAPS_LINES);
+    const double fastest = (double)NAME_largest(NAME_elements(&at->v), CAPS_LINES);
+    struct NAME_coordinates of_v = {0};
+    real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, rates[CAPS_ROWS], after[CAPS_ROWS], impulses[CAPS_ROWS] = {0};
+    int locked[CAPS_ROWS], set[CAPS_ROWS];
+    if (!NAME_find_locked(run, locked)) {
+        return CAPS_OK;
+    }
+    NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, gaps);
+    NAME_compute_contacts(m, at->t, &at->q, contacts);
+    NAME_find_held(run, set);
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        const double way = 4.0 * (double)run->step * fabs((double)gaps[3 * row + 1]);
+        const double allowed = NAME_allowed(size, NAME_slope(contacts, row)) + way;
+        rates[row] = gaps[3 * row + 1];
+        after[row] = rates[row];
+        set[row] = locked[row] || (row < CAPS_STOPS && set[row]);
+        if (locked[row] && !(fabs((double)gaps[3 * row]) <= allowed)) {
+            run->where = NAME_memories[row];
+            return CAPS_APART;
+        }
+    }
+    if (!(contacts[CAPS_CONTACTS - 1] < NAME_growth_limit)
+        || !NAME_complementary(contacts, set, locked, rates, impulses)) {
+        return NAME_unanswered(run, locked);
+    }
+    NAME_change_rates(contacts, impulses, after);
+    for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
+        const double left = 1e-6 * (fabs((double)rates[row]) + NAME_slope(contacts, row) * fastest);
+        if (locked[row] && !(fabs((double)after[row]) <= left)) {
+            run->where = NAME_memories[row];
+            return CAPS_APART;
+        }
+    }
+    NAME_add_responses(contacts, impulses, 0, CAPS_COORDINATES, NAME_places(&of_v));
+    NAME_add(NAME_places(&at->v), 1, NAME_elements(&of_v), CAPS_COORDINATES);
+    return CAPS_OK;
+}
+
+/* Leads positions to the constraints of the modes that hold; stops that are rested on stay closed. */
+static void NAME_close(struct NAME_run *run)
+{
+    const struct NAME *const m = run->mechanism;
+    struct NAME_state *const at = &run->state;
+    const struct NAME_reactions still = {0};
+    int set[CAPS_ROWS];
+    NAME_find_held(run, set);
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
+        set[row] = 0;
+    }
+    for (int step = 0; step < 4; step++) {
+        struct NAME_coordinates of_q = {0};
+        real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, b[CAPS_ROWS], x[CAPS_ROWS];
+        NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, gaps);
+        NAME_compute_contacts(m, at->t, &at->q, contacts);
+        for (int row = 0; row < CAPS_ROWS; row++) {
+            b[row] = gaps[3 * row];
+        }
+        NAME_solve_at_stops(contacts, set, b, x);
+        NAME_add_responses(contacts, x, 0, CAPS_COORDINATES, NAME_places(&of_q));
+        NAME_add(NAME_places(&at->q), 1, NAME_elements(&of_q), CAPS_COORDINATES);
+    }
+}
+
+/* What conditions change that have begun to hold at the end of a step. */
+static int NAME_pass_and_engage(struct NAME_run *run)
+{
+    int passes = 0, code = NAME_pass(run, &passes);
+    if (code != CAPS_OK || !passes) {
+        return code;
+    }
+    code = NAME_engage(run);
+    if (code == CAPS_OK) {
+        NAME_close(run);
+        code = NAME_engage(run);
+    }
+    NAME_hold(run);
+    return code;
+}
+

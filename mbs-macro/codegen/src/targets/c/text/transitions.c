@@ -1,0 +1,43 @@
+/* Transitions: samples where a condition begins to hold. */
+
+/* Notes on which side of its condition every transition is at a start. */
+static void NAME_look(struct NAME_run *run)
+{
+    const struct NAME_state *const at = &run->state;
+    real values[CAPS_TRANSITIONS] = {0};
+    NAME_compute_transitions(run->mechanism, at->t, &at->q, &at->v, &run->inputs, values);
+    for (int of = 0; of < CAPS_TRANSITIONS; of++) {
+        NAME_places(&run->inputs)[NAME_sides[of][0]] = values[of];
+    }
+}
+
+/* Takes the samples of the transitions whose conditions have begun to hold, and of those whose conditions do by that. */
+static int NAME_pass(struct NAME_run *run, int *passes)
+{
+    const struct NAME_state *const at = &run->state;
+    for (int turn = 0; turn <= 16; turn++) {
+        real values[CAPS_TRANSITIONS] = {0};
+        int due[CAPS_TRANSITIONS] = {0}, is_due = 0;
+        NAME_compute_transitions(run->mechanism, at->t, &at->q, &at->v, &run->inputs, values);
+        for (int of = 0; of < CAPS_TRANSITIONS; of++) {
+            real *const seen = NAME_places(&run->inputs) + NAME_sides[of][0];
+            const double side = NAME_sides[of][1], before = (double)*seen, now = (double)values[of];
+            const double size = fabs(before) > fabs(now) ? fabs(before) : fabs(now);
+            const int holds = side * now > 0 || fabs(now) <= 1e-12 * fabs(before);
+            due[of] = side * before < 0 && holds;
+            is_due = is_due || due[of];
+            *seen = (real)(holds ? side * size : -side * size);
+        }
+        if (!is_due) {
+            return CAPS_OK;
+        }
+        for (int of = 0; of < CAPS_TRANSITIONS; of++) {
+            if (due[of]) {
+                NAME_take_sample(run, CAPS_CLOCKS + of);
+                *passes = 1;
+            }
+        }
+    }
+    return CAPS_ENDLESS;
+}
+
