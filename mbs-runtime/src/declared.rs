@@ -77,6 +77,8 @@ pub struct DeclaredTransition {
     pub condition: &'static str,
     /// True if it holds where its value is positive.
     pub is_rising: bool,
+    /// True if it does not hold where its value is 0 at the start.
+    pub is_strict: bool,
     /// The place among the inputs of the memory of the sign that the value had last.
     pub memory: usize,
 }

@@ -35,6 +35,8 @@ const CLOSINGS: usize = 4;
 const LEAST_SIZE: f64 = 1e-3;
 /// A value is at its limit below this share of the largest one so far.
 const ROUNDING: f64 = 1e-12;
+/// A value that was 0 from the start on has this size.
+const NONE: f64 = 1e-30;
 /// Impulses leave this share of a rate where its constraint depends on others.
 const LEFT: f64 = 1e-6;
 
@@ -144,6 +146,9 @@ pub(crate) fn close<T: Real>(
 ) {
     let info = equations.info();
     let locked = locked(info, inputs);
+    if locked == 0 {
+        return;
+    }
     let set = locked | held(equations, inputs) & all_stops(info);
     for _ in 0..CLOSINGS {
         let gap = Gaps::of(equations, At { t, q, v }, changes.still).gap;
@@ -157,8 +162,9 @@ pub(crate) fn close<T: Real>(
 pub(crate) fn look<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &mut [T]) {
     let values = values(equations, at, inputs);
     for (transition, value) in equations.info().modes.transitions.iter().zip(values) {
+        let side = if transition.is_rising == transition.is_strict { -NONE } else { NONE };
         if let Some(to) = inputs.get_mut(transition.memory) {
-            *to = value;
+            *to = if value.to_f64() == 0.0 { T::from_f64(side) } else { value };
         }
     }
 }
@@ -170,7 +176,8 @@ pub(crate) fn due<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: 
         let side = if transition.is_rising { 1.0 } else { -1.0 };
         let (before, now) = (inputs.get(transition.memory).map_or(0.0, |seen| seen.to_f64()), value.to_f64());
         let size = before.abs().max(now.abs());
-        let holds = side * now > 0.0 || now.abs() <= ROUNDING * before.abs();
+        let is_at_limit = now.abs() <= ROUNDING * before.abs() && before.abs() > 2.0 * NONE;
+        let holds = side * now > 0.0 || is_at_limit;
         if side * before < 0.0 && holds {
             due |= bit(of);
         }

@@ -122,10 +122,10 @@ fn modes(compiled: &Compiled) -> Modes {
         let (name, formula) = (text(&it.name), text(&it.formula));
         DeclaredLock { name, mode: it.mode, held: it.held, formula }
     };
-    let transition = |it: &compiled::Transition| DeclaredTransition {
-        condition: text(&it.text),
-        is_rising: it.is_rising,
-        memory: it.memory,
+    let transition = |it: &compiled::Transition| {
+        let compiled::Transition { text: condition, is_rising, is_strict, memory } = it;
+        let condition = text(condition);
+        DeclaredTransition { condition, is_rising: *is_rising, is_strict: *is_strict, memory: *memory }
     };
     Modes {
         modes: leak(compiled.modes.iter().map(mode)),

@@ -6,6 +6,7 @@ mod bristles;
 mod contact;
 mod energy;
 mod held;
+mod modes;
 mod rests;
 mod several;
 mod steps;

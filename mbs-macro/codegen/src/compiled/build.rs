@@ -124,8 +124,8 @@ impl From<&model::Mode> for Mode {
 
 impl From<&model::Transition> for Transition {
     fn from(transition: &model::Transition) -> Self {
-        let model::Transition { text, is_rising, memory, .. } = transition;
-        Self { text: text.clone(), is_rising: *is_rising, memory: *memory }
+        let model::Transition { text, is_rising, is_strict, memory, .. } = transition;
+        Self { text: text.clone(), is_rising: *is_rising, is_strict: *is_strict, memory: *memory }
     }
 }
 

@@ -56,6 +56,8 @@ pub struct Transition {
     pub text: String,
     /// True if it holds where the value is positive.
     pub is_rising: bool,
+    /// True if it does not hold where the value is 0 at the start.
+    pub is_strict: bool,
     /// The place among the inputs of the memory of the sign that the value had last.
     pub memory: usize,
 }

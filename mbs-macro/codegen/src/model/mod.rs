@@ -354,6 +354,7 @@ pub struct Lock {
 pub struct Transition {
     pub value: Expr,
     pub is_rising: bool,
+    pub is_strict: bool,
     /// The place among the inputs of the memory of the sign that the value had last.
     pub memory: usize,
     /// The condition as it was written.

@@ -118,7 +118,9 @@ impl Resolver<'_> {
         let names: Vec<String> = self.modes.iter().map(|mode| mode.name.to_string()).collect();
         let help = match nearest(&name.to_string(), names.iter().map(String::as_str)) {
             Some(near) => format!("did you mean `{near}`?"),
-            None if names.is_empty() => "declare one: `mode engaged { fixed lock (plate, wheel); }`".to_owned(),
+            None if names.is_empty() => {
+                "declare one: `mode engaged { fixed lock (plate, wheel); }`".to_owned()
+            }
             None => format!("the modes are {}", listing(&names)),
         };
         self.errors.push(Diagnostic::new(name.span(), format!("there is no mode `{name}`")).help(help));
@@ -170,8 +172,9 @@ impl Resolver<'_> {
             return refuse(&message, "gather what happens at the same moment in one `when`");
         }
         let is_rising = matches!(condition.comparison, Comparison::Greater | Comparison::GreaterOrEqual);
+        let is_strict = matches!(condition.comparison, Comparison::Greater | Comparison::Less);
         let text = condition.text.clone();
-        self.transitions.push(Transition { value, is_rising, memory, text, sets });
+        self.transitions.push(Transition { value, is_rising, is_strict, memory, text, sets });
     }
 
     /// Refuses modes that are never entered, and what does not go with modes.

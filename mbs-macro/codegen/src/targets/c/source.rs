@@ -10,7 +10,7 @@ use super::kernels::Kernel;
 use super::loops::lines;
 use super::names::Struct;
 use super::target::{Scalar, Target};
-use crate::compiled::{Comparison, Compiled, Condition, Feedback, GROWTH_LIMIT, Pivot};
+use crate::compiled::{Comparison, Compiled, Condition, Feedback, GROWTH_LIMIT, Pivot, Transition};
 use crate::targets::words;
 
 /// The text from the functions of the programs, and from a step that is one program.
@@ -190,8 +190,7 @@ fn tables(target: &Target<'_>) -> String {
     if !compiled.sampling.samples.is_empty() {
         let samples = compiled.sampling.samples.iter();
         let places = samples.map(|[clock, memory]| format!("{{{clock}, {memory}}}")).collect();
-        let declaration =
-            "/* The clock, or behind them the transition, and the memory of every sample. */\nstatic const int NAME_sample_places[][2]";
+        let declaration = "/* The clock, or behind them the transition, and the memory of every sample. */\nstatic const int NAME_sample_places[][2]";
         add(declaration, places, "{0, 0}");
     }
     if compiled.contacts() > 0 {
@@ -200,15 +199,19 @@ fn tables(target: &Target<'_>) -> String {
                            modes of constraints. */\nstatic const int NAME_memories[]";
         add(declaration, places, "0");
         let multipliers = compiled.locks.iter().map(|lock| lock.held.to_string()).collect();
-        let declaration = "/* The memories of the multipliers of modes. */\nstatic const int NAME_multipliers[]";
+        let declaration =
+            "/* The memories of the multipliers of modes. */\nstatic const int NAME_multipliers[]";
         add(declaration, multipliers, "0");
     }
     if !compiled.transitions.is_empty() {
-        let side = |is_rising| if is_rising { 1 } else { -1 };
-        let sides = compiled.transitions.iter().map(|it| format!("{{{}, {}}}", it.memory, side(it.is_rising)));
-        let declaration =
-            "/* The memory of every transition, and the sign with which it holds. */\nstatic const int NAME_sides[][2]";
-        add(declaration, sides.collect(), "{0, 0}");
+        let sign = |is_positive| if is_positive { 1 } else { -1 };
+        let side = |it: &Transition| {
+            format!("{{{}, {}, {}}}", it.memory, sign(it.is_rising), sign(it.is_rising != it.is_strict))
+        };
+        let sides = compiled.transitions.iter().map(side).collect();
+        let declaration = "/* The memory of every transition, the sign with which it holds, and that of 0 at the start. */\n\
+                           static const int NAME_sides[][3]";
+        add(declaration, sides, "{0, 0, 0}");
     }
     let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
     add(

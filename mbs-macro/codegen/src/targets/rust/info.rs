@@ -108,9 +108,9 @@ fn modes(compiled: &Compiled, runtime: &TokenStream) -> TokenStream {
         let [mode, held] = [mode, held].map(|it| Literal::usize_unsuffixed(*it));
         quote!(#runtime::DeclaredLock { name: #name, mode: #mode, held: #held, formula: #formula })
     });
-    let transitions = compiled.transitions.iter().map(|Transition { text, is_rising, memory }| {
+    let transitions = compiled.transitions.iter().map(|Transition { text, is_rising, is_strict, memory }| {
         let memory = Literal::usize_unsuffixed(*memory);
-        quote!(#runtime::DeclaredTransition { condition: #text, is_rising: #is_rising, memory: #memory })
+        quote!(#runtime::DeclaredTransition { condition: #text, is_rising: #is_rising, is_strict: #is_strict, memory: #memory })
     });
     quote! {
         #runtime::Modes {

@@ -50,7 +50,7 @@ macro_rules! run_script {
 /// mechanisms without stops and without friction that sticks, the second one of all. The order of operations is that of the C
 /// target, so that numbers agree with those of C and Rust to the bit.
 pub const RUN_SCRIPTS: [&str; 2] =
-    [run_script!("text/no_contacts.js"), run_script!("text/sticking.js", "text/stops.js")];
+    [run_script!("text/no_contacts.js"), run_script!("text/sticking.js", "text/modes.js", "text/stops.js")];
 
 /// A mechanism in WebAssembly.
 #[derive(Clone, Debug, PartialEq)]

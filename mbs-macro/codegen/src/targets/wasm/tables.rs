@@ -3,7 +3,7 @@
 use mbs_interface::{Explicit, Row};
 use mbs_symbolic::units::Dimension;
 
-use crate::compiled::{Comparison, Compiled, Condition, GROWTH_LIMIT, Pivot, Quantity, Results, Setting};
+use crate::compiled::{Comparison, Compiled, Condition, GROWTH_LIMIT, Pivot, Quantity, Results, Setting, Transition};
 use crate::targets::words;
 
 /// The tables of a mechanism. `<` is escaped, so that they can stand within a `script` element.
@@ -42,6 +42,8 @@ pub fn tables(compiled: &Compiled) -> String {
         ),
         ("stops", array(compiled.contact_memories().map(|memory| memory.to_string()))),
         ("frictions", compiled.frictions.len().to_string()),
+        ("multipliers", array(compiled.locks.iter().map(|lock| lock.held.to_string()))),
+        ("transitions", array(compiled.transitions.iter().map(transition))),
         ("contacts", compiled.length(Results::Contacts).to_string()),
         ("coordinates", quantities(&compiled.coordinates)),
         ("lines", compiled.line_count.to_string()),
@@ -64,6 +66,12 @@ pub fn tables(compiled: &Compiled) -> String {
         ("feedback", feedback),
         ("fused", compiled.fused_step.is_some().to_string()),
     ])
+}
+
+/// The memory of a transition, the sign with which it holds, and that of 0 at the start.
+fn transition(Transition { is_rising, is_strict, memory, .. }: &Transition) -> String {
+    let sign = |is_positive| if is_positive { 1 } else { -1 };
+    format!("[{memory},{},{}]", sign(*is_rising), sign(is_rising != is_strict))
 }
 
 fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {

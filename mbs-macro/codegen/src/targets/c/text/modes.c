@@ -70,6 +70,9 @@ static void NAME_close(struct NAME_run *run)
     struct NAME_state *const at = &run->state;
     const struct NAME_reactions still = {0};
     int set[CAPS_ROWS];
+    if (!NAME_find_locked(run, set)) {
+        return;
+    }
     NAME_find_held(run, set);
     for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         set[row] = 0;

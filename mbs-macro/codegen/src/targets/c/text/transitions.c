@@ -7,7 +7,9 @@ static void NAME_look(struct NAME_run *run)
     real values[CAPS_TRANSITIONS] = {0};
     NAME_compute_transitions(run->mechanism, at->t, &at->q, &at->v, &run->inputs, values);
     for (int of = 0; of < CAPS_TRANSITIONS; of++) {
-        NAME_places(&run->inputs)[NAME_sides[of][0]] = values[of];
+        /* one that is 0 is on the side that its comparison says */
+        const real none = (real)(NAME_sides[of][2] * 1e-30);
+        NAME_places(&run->inputs)[NAME_sides[of][0]] = values[of] == 0 ? none : values[of];
     }
 }
 
@@ -23,7 +25,8 @@ static int NAME_pass(struct NAME_run *run, int *passes)
             real *const seen = NAME_places(&run->inputs) + NAME_sides[of][0];
             const double side = NAME_sides[of][1], before = (double)*seen, now = (double)values[of];
             const double size = fabs(before) > fabs(now) ? fabs(before) : fabs(now);
-            const int holds = side * now > 0 || fabs(now) <= 1e-12 * fabs(before);
+            const int is_at_limit = fabs(now) <= 1e-12 * fabs(before) && fabs(before) > 2e-30;
+            const int holds = side * now > 0 || is_at_limit;
             due[of] = side * before < 0 && holds;
             is_due = is_due || due[of];
             *seen = (real)(holds ? side * size : -side * size);

@@ -86,14 +86,19 @@ class Start {
 
   // Takes the samples that are due, in the order of the clocks.
   sample() {
-    const m = this.mechanism;
     this.clocks().forEach(([period, offset], clock) => {
       const count = this.stepsOf(period), steps = this.stepsOf(this.startTime - offset) + this.steps;
       if (steps - Math.floor(steps / count) * count !== 0) return;
-      m.call("samples", this.t, this.q, this.v, this.inputs, m.sampled);
-      this.tables.samples.forEach(([of, memory], at) => {
-        if (of === clock) this.inputs[memory] = m.sampled[at];
-      });
+      this.takeSample(clock);
+    });
+  }
+
+  // Sets the memories of a clock, or of a transition, which count behind the clocks.
+  takeSample(clock) {
+    const m = this.mechanism;
+    m.call("samples", this.t, this.q, this.v, this.inputs, m.sampled);
+    this.tables.samples.forEach(([of, memory], at) => {
+      if (of === clock) this.inputs[memory] = m.sampled[at];
     });
   }
 

@@ -2,7 +2,7 @@
 class Run extends AtStops {
   // One step.
   step() {
-    if (this.tables.stops.length) this.toStops(() => this.stepBetween());
+    if (this.tables.stops.length || this.tables.transitions.length) this.toStops(() => this.stepBetween());
     else this.stepBetween();
     this.sample();
   }

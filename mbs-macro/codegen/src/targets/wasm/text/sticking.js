@@ -13,14 +13,14 @@ class Sticking extends Start {
 
   // The rows of frictions.
   frictions() {
-    return this.each((row) => row).filter((row) => !this.isStop(row));
+    return this.each((row) => row).filter((row) => !this.isStop(row) && !this.isLock(row));
   }
 
   // The size of every friction while it slides, and the largest one with which it sticks.
   limits(reactions) {
-    const m = this.mechanism, stops = this.tables.stops.length - this.tables.frictions;
+    const m = this.mechanism, stops = this.tables.stops.length - this.tables.multipliers.length - this.tables.frictions;
     m.call("limits", this.t, this.q, this.v, this.inputs, reactions, m.limits);
-    return this.each((row) => (row < stops ? {} : { sliding: m.limits[2 * (row - stops)], most: m.limits[2 * (row - stops) + 1] }));
+    return this.each((row) => (row < stops || this.isLock(row) ? {} : { sliding: m.limits[2 * (row - stops)], most: m.limits[2 * (row - stops) + 1] }));
   }
 
   // The friction of a set whose force is most beyond its limit; -1 where none is.
@@ -39,15 +39,20 @@ class Sticking extends Start {
   // The forces of which of the frictions stick that do not move, and of stops that are rested on.
   decide(resting, still) {
     const m = this.mechanism, n = this.q.length, sticking = still.slice(), rows = this.frictions();
+    const locked = this.locked();
     for (let tries = 0; tries <= 8 * rows.length; tries++) {
       rows.filter((row) => sticking[row]).forEach((row) => this.setFriction(row, 0, 0));
       m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
       const b = this.gapsAt(this.t, this.q, this.v, m.reactions).map(({ second }) => second);
       m.call("contacts", this.t, this.q, m.contacts);
-      const forces = this.complementary(resting.map((it, row) => it || sticking[row]), b, sticking);
+      const bound = sticking.map((it, row) => it || locked[row]);
+      const forces = this.complementary(resting.map((it, row) => it || bound[row]), b, bound);
       this.addResponses(forces, 0, m.reactions.subarray(0, n));
       this.addResponses(forces, n, m.reactions.subarray(n));
-      if (!rows.length) return forces;
+      if (!rows.length) {
+        this.noteMultipliers(locked, forces);
+        return forces;
+      }
       const most = this.limits(m.reactions).map((limit) => limit.most);
       const loose = this.loose(sticking, forces, most);
       if (loose >= 0) {
@@ -68,6 +73,7 @@ class Sticking extends Start {
       });
       if (turned === undefined) {
         rows.filter((row) => sticking[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
+        this.noteMultipliers(locked, forces);
         return forces;
       }
       sticking[turned] = true;
@@ -88,10 +94,12 @@ class Sticking extends Start {
   hold() {
     const m = this.mechanism, n = this.q.length, held = this.held(), rows = this.frictions();
     rows.forEach((row) => this.setFriction(row, this.direction(row), 0));
-    if (!rows.some((row) => held[row])) return;
+    this.noteMultipliers(this.each(() => false), []);
+    if (!held.some((it, row) => it && !this.isStop(row))) return;
     m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
     const { forces } = this.pressWith(held, m.reactions);
     rows.filter((row) => held[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
+    this.noteMultipliers(held, forces);
   }
 
   // Sets the directions of the frictions that move at a start; those that do not.
@@ -100,7 +108,7 @@ class Sticking extends Start {
     const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved);
     m.call("contacts", this.t, this.q, m.contacts);
     return gaps.map(({ rate }, row) => {
-      if (this.isStop(row)) return false;
+      if (this.isStop(row) || this.isLock(row)) return false;
       const own = this.mobility(row, row), fastest = Math.sqrt(2 * (energy > 0 ? energy : 0) * (own > 0 ? own : 0));
       const isStill = Math.abs(rate) <= 1e-9 * fastest;
       if (!isStill) this.setFriction(row, rate > 0 ? 1 : -1, 0);
@@ -137,8 +145,8 @@ class Sticking extends Start {
     }
   }
 
-  // What leads back to where they were what stuck in the whole step and has slipped; stops that are rested on stay where
-  // they are.
+  // What leads back to where they were what stuck in the whole step and has slipped, and to the constraints of modes; stops
+  // that are rested on stay where they are.
   wayBack(slipped, resting, moved) {
     if (!slipped.some((it) => it !== undefined)) return this.each(() => 0);
     const b = this.changed(slipped.map((it) => it ?? 0), moved);
@@ -147,12 +155,12 @@ class Sticking extends Start {
 
   // Answers friction at the end of a step, behind what stops did.
   halt(pushed, before) {
-    const m = this.mechanism, n = this.q.length, rows = this.frictions();
-    if (!rows.length) return;
+    const m = this.mechanism, n = this.q.length, rows = this.frictions(), locked = this.locked();
+    if (!rows.length && !locked.includes(true)) return;
     const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved), now = gaps.map(({ rate }) => rate), ends = now.slice();
-    const stuck = pushed.map((it, row) => it && !this.isStop(row));
-    const crossed = now.map((rate, row) => !this.isStop(row) && this.direction(row) * rate < 0);
-    if (!stuck.includes(true) && !crossed.includes(true)) {
+    const stuck = pushed.map((it, row) => it && rows.includes(row));
+    const crossed = now.map((rate, row) => rows.includes(row) && this.direction(row) * rate < 0);
+    if (!stuck.includes(true) && !crossed.includes(true) && !locked.includes(true)) {
       this.hold();
       return;
     }
@@ -164,9 +172,9 @@ class Sticking extends Start {
     m.trialV.set(before.v);
     const gapsBefore = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved), was = gapsBefore.map(({ rate }) => rate);
     m.call("contacts", this.t, this.q, m.contacts);
-    const acts = stuck.map((it, row) => it || crossed[row]);
+    const acts = stuck.map((it, row) => it || crossed[row] || locked[row]);
     if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("JAMMED", acts.indexOf(true));
-    const resting = held.map((it, row) => it && this.isStop(row));
+    const resting = held.map((it, row) => it && !rows.includes(row));
     // sliding may come to a halt by the impulses of those that stick
     crossed.fill(false);
     for (;;) {
@@ -178,7 +186,10 @@ class Sticking extends Start {
       if (!late.length) {
         const ofQ = new Float64Array(n), ofV = new Float64Array(n);
         const moved = impulses.map((impulse, row) => impulse * halting[row].shift);
-        const slipped = gaps.map(({ gap }, row) => (halted[row] && stuck[row] ? gap - gapsBefore[row].gap : undefined));
+        const slipped = gaps.map(({ gap }, row) => {
+          if (locked[row]) return gap;
+          return halted[row] && stuck[row] ? gap - gapsBefore[row].gap : undefined;
+        });
         const back = this.wayBack(slipped, resting, moved);
         this.addResponses(moved, 0, ofQ);
         this.addResponses(back, 0, ofQ);

@@ -1,13 +1,13 @@
 // Stops at the ends of steps: time stepping by Moreau and Jean; see `stops.c`.
-class AtStops extends Sticking {
-  // A set of contacts, or a number per contact: stops, and behind them frictions that stick.
+class AtStops extends Modes {
+  // A set of contacts, or a number per contact: stops, behind them frictions that stick, and constraints of modes.
   each(what) {
     return Array.from({ length: this.tables.stops.length }, (_, stop) => what(stop));
   }
 
-  // True of stops, false of frictions.
+  // True of stops.
   isStop(row) {
-    return row < this.tables.stops.length - this.tables.frictions;
+    return row < this.tables.stops.length - this.tables.multipliers.length - this.tables.frictions;
   }
 
   // Gap, rate and second derivative of every stop.
@@ -124,8 +124,9 @@ class AtStops extends Sticking {
   }
 
   // The rates that forces at the stops of a set take from gaps in a step.
-  taken(set, change) {
-    return this.complementary(set, change).map((force, stop) => this.mobility(stop, stop) * force);
+  taken(closed, change, locked) {
+    const set = closed.map((it, row) => it || locked[row]);
+    return this.complementary(set, change, locked).map((force, stop) => this.mobility(stop, stop) * force);
   }
 
   // Adds what the stops do that are rested on; the growth of the responses.
@@ -134,10 +135,10 @@ class AtStops extends Sticking {
     return held.includes(true) ? this.pressWith(held, reactions).growth : 0;
   }
 
-  // The stops that are rested on, and the frictions that stick.
+  // The stops that are rested on, the frictions that stick, and the constraints of the modes that hold.
   held() {
     return this.tables.stops.map((memory, row) =>
-      this.isStop(row) ? this.inputs[memory] > 0.5 : Math.abs(this.inputs[memory]) < 0.5);
+      this.isStop(row) || this.isLock(row) ? this.inputs[memory] > 0.5 : Math.abs(this.inputs[memory]) < 0.5);
   }
 
   // Adds what some stops and frictions do that hold; their forces, and the growth.
@@ -153,21 +154,24 @@ class AtStops extends Sticking {
 
   // Rests on the stops that a start touches; one behind a stop is refused.
   touch() {
-    const m = this.mechanism, n = this.q.length, { lines, stops, constraints } = this.tables;
+    const m = this.mechanism, n = this.q.length, { lines, stops } = this.tables;
+    this.look();
     if (!stops.length) return;
-    const still = this.slide();
+    const locked = this.locked(), still = this.slide();
     m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
     const gaps = this.gapsAt(this.t, this.q, this.v, m.reactions), thrown = this.rebounds(gaps.map(({ rate }) => rate));
     m.call("contacts", this.t, this.q, m.contacts);
     const size = 1e-9 * (1e-3 + largest(this.q.subarray(0, lines)));
     const closed = gaps.map(({ gap }, stop) => {
       if (!this.isStop(stop)) return false;
-      const begin = this.responses(stop) + n + constraints.length;
-      const slope = m.contacts.subarray(begin, begin + n).reduce((sum, it) => sum + Math.abs(it), 0);
+      const slope = this.slope(stop);
       if (gap < -(size * slope)) this.failAtStop("BEHIND", stop);
       return gap <= size * slope;
     });
-    const taken = this.taken(closed, gaps.map(({ second }) => this.h * second));
+    const off = gaps.findIndex(({ gap }, row) =>
+      locked[row] && !(Math.abs(gap) <= this.allowed(size / 1e-9, this.slope(row))));
+    if (off >= 0) this.failAtStop("APART", off);
+    const taken = this.taken(closed, gaps.map(({ second }) => this.h * second), locked);
     const settled = closed.map((it, stop) => it && gaps[stop].rate <= taken[stop] && thrown[stop] <= taken[stop]);
     const forces = this.decide(settled, still);
     this.noteStops(forces.map((force) => force > 0), this.each(() => 0));
@@ -177,7 +181,9 @@ class AtStops extends Sticking {
   push() {
     const m = this.mechanism, held = this.held(), half = 0.5 * this.h;
     if (!held.includes(true)) return held;
-    const forces = this.decide(held.map((it, row) => it && this.isStop(row)), held.map((it, row) => it && !this.isStop(row)));
+    this.engage();
+    const rows = this.frictions();
+    const forces = this.decide(held.map((it, row) => it && this.isStop(row)), held.map((it, row) => it && rows.includes(row)));
     const holds = this.held();
     m.call("contacts", this.t, this.q, m.contacts);
     this.addResponses(forces.map((force) => half * force), 0, this.v);
@@ -186,7 +192,7 @@ class AtStops extends Sticking {
 
   // The impulses at the stops that are closed at the end of a step, or that impulses close, one impact after the other.
   answer(closed, { before, now, gap, rest, shift }) {
-    const change = now.map((rate, stop) => rate - before[stop]);
+    const change = now.map((rate, stop) => rate - before[stop]), locked = this.locked();
     let impulses = this.each(() => 0), held = this.each(() => false), isImpact = false;
     for (let turn = 0; ; turn++) {
       const moved = impulses.map((impulse, stop) => impulse * shift[stop]);
@@ -201,7 +207,7 @@ class AtStops extends Sticking {
         held = held.map((it, stop) => closing[stop] && it && impulses[stop] > 0);
         return { impulses, moved, gaps, isImpact, held };
       }
-      const taken = this.taken(closed, change);
+      const taken = this.taken(closed, change, locked);
       const approach = turn === 0 ? now.map((rate, stop) => rate - rest[stop] * change[stop]) : rates;
       const thrown = this.rebounds(approach);
       // what closes in the last of all impacts is rested on
@@ -209,10 +215,10 @@ class AtStops extends Sticking {
       // a force that presses for a step is no impact
       isImpact = isImpact || hit.some((it, stop) => it && -approach[stop] > taken[stop]);
       const wanted = rates.map((rate, stop) => {
-        const later = turn === 0 ? rest[stop] * change[stop] : 0, target = held[stop] ? 0 : thrown[stop] + later;
+        const later = turn === 0 ? rest[stop] * change[stop] : 0, target = held[stop] || locked[stop] ? 0 : thrown[stop] + later;
         return rate - (target > 0 ? target : 0);
       });
-      const more = this.complementary(closing, wanted);
+      const more = this.complementary(closing.map((it, row) => it || locked[row]), wanted, locked);
       impulses = impulses.map((impulse, stop) => impulse + more[stop]);
     }
   }
@@ -245,9 +251,10 @@ class AtStops extends Sticking {
       now: now.map(({ rate }) => rate),
       gap: now.map(({ gap }) => gap),
       rest,
-      shift: rest.map((part, stop) => (pushed[stop] ? 0 : part * this.h)),
+      shift: rest.map((part, row) => (pushed[row] || this.isLock(row) ? 0 : part * this.h)),
     });
-    const shifts = this.solveAtStops(held, gaps).map((shift, stop) => moved[stop] + shift);
+    const locked = this.locked(), set = held.map((it, row) => it || locked[row]);
+    const shifts = this.solveAtStops(set, gaps).map((shift, stop) => moved[stop] + shift);
     const ofQ = new Float64Array(n), ofV = new Float64Array(n);
     this.addResponses(shifts, 0, ofQ);
     this.addResponses(impulses, 0, ofV);
@@ -264,6 +271,7 @@ class AtStops extends Sticking {
       step();
       this.strike(pushed, { t, q, v });
       this.halt(pushed, { t, q, v });
+      this.passAndEngage();
     } catch (failure) {
       Object.assign(this, { t, steps, alarm, worstGrowth });
       this.q.set(q);

@@ -1,0 +1,239 @@
+//! Modes: constraints that come and go, against closed forms, beside constraints that stay, and on every path.
+
+use mbs_live::{Run, Text};
+use mbs_runtime::lanes::Pack as Lanes;
+use mbs_runtime::{Adaptive, Dop853, Error, Rattle, Simulation, System, TrBdf2, mechanism};
+
+use super::{TIGHT, declared};
+
+// a plate that drives a wheel while a clutch holds
+declared! { CLUTCH;
+    Clutch {
+        dof = 2;
+        body plate (phi) { inertia = 1 [kg*m^2]; }
+        body wheel (psi) { inertia = 2 [kg*m^2]; }
+        memory times [1] = 0;
+        mode engaged { rate lock: der(phi) = der(psi); }
+        when t >= 1 [s] { enter engaged; set times = times + 1; }
+        when times > 0 { set times = 10*times; }
+        when t > 2 [s] { leave engaged; }
+        torque drive on plate = 3 [N*m];
+        start { der(phi) = 10 [rad/s]; }
+        output torque [N*m] = lambda(lock);
+    }
+}
+
+/// Momentum stays where the clutch engages: 13 rad/s of a third of the inertia become 13/3. Then 3 N·m accelerate all of it by
+/// 1 rad/s², with 2 N·m through the clutch; and from 2 s on the plate alone.
+#[test]
+fn a_clutch_keeps_the_momentum() -> Result<(), Error> {
+    let mut to_tolerance = Adaptive::builder(Clutch::declared()).tolerances(TIGHT).build()?;
+    let mut in_steps = Simulation::new(Clutch::declared(), 1e-2)?;
+    for (t, phi, psi, rates, torque) in [
+        (1.5, 11.5 + 13.0 / 6.0 + 0.125, 13.0 / 6.0 + 0.125, [13.0 / 3.0 + 0.5; 2], 2.0),
+        (
+            3.0,
+            11.5 + 16.0 / 3.0 + 5.0 + 11.0 / 6.0 - 0.5,
+            13.0 / 3.0 + 0.5 + 16.0 / 3.0,
+            [25.0 / 3.0, 16.0 / 3.0],
+            0.0,
+        ),
+    ] {
+        to_tolerance.advance_to(t)?;
+        in_steps.advance_to(t)?;
+        // Heun's rule is exact for constant torques, and both moments are ends of steps
+        for state in [to_tolerance.state(), in_steps.state()] {
+            let off = [state.q.phi - phi, state.q.psi - psi, state.v.phi - rates[0], state.v.psi - rates[1]];
+            assert!(off.iter().all(|off: &f64| off.abs() < 1e-9), "{t}: {off:?}");
+        }
+        assert!((in_steps.outputs()?.torque - torque).abs() < 1e-9);
+    }
+    assert_eq!((to_tolerance.inputs().engaged, to_tolerance.inputs().times), (0.0, 10.0));
+    Ok(())
+}
+
+/// A type, a lane of it, and a text.
+#[test]
+fn every_path_has_the_same_bits() -> Result<(), Error> {
+    let mut alone = Simulation::new(Clutch::declared(), 7e-3)?;
+    let (first, second) = (alone, alone);
+    let mut pack = Lanes::new([&first, &second]);
+    let text = Text::declaration("clutch.mbs", CLUTCH).compile().expect("a clutch");
+    let mut read = Run::builder(&text, 7e-3).build()?;
+    for _ in 0..400 {
+        alone.step()?;
+        read.step()?;
+        if pack.advance(1) == 0 {
+            assert_eq!(pack.step(), [true; 2]);
+        }
+        let rows = [&alone as &dyn System, &read, &pack.simulation(1)].map(|run| {
+            let (mut q, mut v, mut inputs) = ([0.0; 2], [0.0; 2], [0.0; 6]);
+            run.state(&mut q, &mut v);
+            run.inputs(&mut inputs);
+            (q, v, inputs)
+        });
+        assert!(rows[0] == rows[1] && rows[0] == rows[2], "{rows:?}");
+    }
+    assert_eq!(alone.inputs().times, 10.0);
+    Ok(())
+}
+
+mechanism! {
+    /// A bar that falls past a pin, which catches its tip and lets it go at 2 s.
+    Caught {
+        dof = 3;
+        gravity = (0, -9.81) [m/s^2];
+        body bar (x, y, phi) { mass = 2 [kg]; inertia = 0.1 [kg*m^2]; }
+        point tip on bar = (-0.5 [m], 0);
+        mode hung { revolute pin (bar.tip, ground); }
+        when bar.tip.y < 0 [m] { enter hung; }
+        when t > 2 [s] { leave hung; }
+        start { x = 0.5 [m]; y = 1 [m]; }
+        output pin [N] = reaction(pin);
+    }
+}
+
+mechanism! {
+    /// The same bar on its pin.
+    Hung {
+        dof = 1;
+        gravity = (0, -9.81) [m/s^2];
+        body bar (x, y, phi) { mass = 2 [kg]; inertia = 0.1 [kg*m^2]; }
+        point tip on bar = (-0.5 [m], 0);
+        revolute pin (bar.tip, ground);
+        param turning = 1 [rad/s];
+        start { x = 0.5 [m]; der(phi) = turning; }
+        output pin [N] = reaction(pin);
+    }
+}
+
+/// The pin is hit at √(2/g). The angular momentum about it stays, m v l, of an inertia of J + m l². From then on the bar is
+/// a pendulum.
+#[test]
+fn a_pin_catches_a_bar() -> Result<(), Error> {
+    let fall = (2.0_f64 / 9.81).sqrt();
+    let turning = -2.0 * 9.81 * fall * 0.5 / (0.1 + 2.0 * 0.25);
+    let hung = Hung::new(HungParameters { turning, ..Hung::declared().parameters().to_owned() })?;
+    let mut exact = Adaptive::builder(hung).scheme::<Dop853>().tolerances(TIGHT).build()?;
+    exact.advance_to(1.9 - fall)?;
+    let exact = exact.state();
+    let mut to_tolerance =
+        Adaptive::builder(Caught::declared()).scheme::<Dop853>().tolerances(TIGHT).build()?;
+    to_tolerance.advance_to(1.9)?;
+    let state = to_tolerance.state();
+    let off = [state.q.phi - exact.q.phi, state.q.x - exact.q.x, state.v.phi - exact.v.phi];
+    assert!(off.iter().all(|off: &f64| off.abs() < 1e-8), "{off:?}");
+    // a step that ends behind the pin is led back to it: of first order, and all that follows of second
+    for h in [1e-3, 1e-4] {
+        let bar = Caught::declared;
+        let mut runs: [Box<dyn System>; 3] = [
+            Box::new(Simulation::new(bar(), h)?),
+            Box::new(TrBdf2::builder(bar(), h).build()?),
+            Box::new(Rattle::builder(bar(), h).build()?),
+        ];
+        for run in &mut runs {
+            run.advance(run.steps_to(1.9)?)?;
+            let (mut q, mut v) = ([0.0_f64; 3], [0.0; 3]);
+            run.state(&mut q, &mut v);
+            assert!((q[2] - exact.q.phi).abs() < 5.0 * h, "{h}: {q:?} {exact:?}");
+            // it hangs on the pin to rounding
+            assert!((q[0] - 0.5 * q[2].cos()).hypot(q[1] - 0.5 * q[2].sin()) < 1e-12);
+        }
+    }
+    // let go, it keeps its rate
+    let rate = to_tolerance.advance_to(2.0).map(|()| to_tolerance.state().v.phi)?;
+    to_tolerance.advance_to(2.5)?;
+    assert!((to_tolerance.state().v.phi - rate).abs() < 1e-8);
+    Ok(())
+}
+
+/// While a mode holds, steps are of second order beside the pendulum that has a constraint.
+#[test]
+fn constraints_of_modes_are_of_second_order() -> Result<(), Error> {
+    mechanism! {
+        Held {
+            dof = 3;
+            gravity = (0, -9.81) [m/s^2];
+            body bar (x, y, phi) { mass = 2 [kg]; inertia = 0.1 [kg*m^2]; }
+            point tip on bar = (-0.5 [m], 0);
+            mode hung = 1 { revolute pin (bar.tip, ground); }
+            when t > 100 [s] { leave hung; }
+            start { x = 0.5 [m]; der(y) = 0.5 [m/s]; der(phi) = 1 [rad/s]; }
+            output pin [N] = reaction(pin);
+        }
+    }
+    let mut exact = Adaptive::builder(Hung::declared()).scheme::<Dop853>().tolerances(TIGHT).build()?;
+    exact.advance_to(2.0)?;
+    let mut to_tolerance =
+        Adaptive::builder(Held::declared()).scheme::<Dop853>().tolerances(TIGHT).build()?;
+    to_tolerance.advance_to(2.0)?;
+    assert!((to_tolerance.state().q.phi - exact.state().q.phi).abs() < 1e-8);
+    let mut errors = [0.0; 2];
+    for (error, h) in errors.iter_mut().zip([4e-3, 2e-3]) {
+        let mut run = Simulation::new(Held::declared(), h)?;
+        run.advance_to(2.0)?;
+        *error = (run.state().q.phi - exact.state().q.phi).abs();
+        let mut beside = Simulation::new(Hung::declared(), h)?;
+        beside.advance_to(2.0)?;
+        assert!((run.outputs()?.pin - beside.outputs()?.pin).abs() < 1e3 * h * h);
+    }
+    let order = (errors[0] / errors[1]).log2();
+    assert!((1.8..2.2).contains(&order), "{errors:?}");
+    Ok(())
+}
+
+/// A program may set the memory of a mode; an impulse leads velocities to its constraints.
+#[test]
+fn a_program_enters_a_mode() -> Result<(), Error> {
+    let mut run = Simulation::new(Clutch::declared(), 1e-3)?;
+    run.inputs_mut().engaged = 1.0;
+    run.step()?;
+    let v = run.state().v;
+    assert!((v.phi - (10.0 / 3.0 + 1e-3)).abs() < 1e-12 && (v.phi - v.psi).abs() < 1e-12, "{v:?}");
+    let mut run = Adaptive::builder(Clutch::declared()).build()?;
+    run.inputs_mut().engaged = 1.0;
+    run.advance_to(0.5)?;
+    let v = run.state().v;
+    assert!((v.phi - (10.0 / 3.0 + 0.5)).abs() < 1e-6 && (v.phi - v.psi).abs() < 1e-12, "{v:?}");
+    Ok(())
+}
+
+/// The error of a text in 1 s, to a tolerance and in steps of 10 ms.
+fn errors(text: &str) -> [Option<Error>; 2] {
+    let live = Text::declaration("modes.mbs", text).compile().expect("a mechanism");
+    let to_tolerance = Adaptive::builder(mbs_live::Prepared::new(&live)).build();
+    let to_tolerance = to_tolerance.and_then(|mut run| run.advance_to(1.0)).err();
+    let in_steps = Run::builder(&live, 1e-2).build().and_then(|mut run| run.advance(100).map(drop)).err();
+    [to_tolerance, in_steps]
+}
+
+/// What cannot be entered, and what has no end.
+#[test]
+fn errors_name_what_is_wrong() {
+    let text = |rest: &str| {
+        format!(
+            "Wrong {{ dof = 1; body block (x) {{ mass = 1 [kg]; }} {rest} start {{ der(x) = 1 [m/s]; }} }}"
+        )
+    };
+    let apart = text("mode held { constraint hook: x = 0.2 [m]; } when x > 0.5 [m] { enter held; }");
+    for error in errors(&apart) {
+        let Some(Error::Apart { constraint: "hook", by, .. }) = error else { panic!("{error:?}") };
+        assert!((by - 0.3).abs() < 0.02, "{by}");
+    }
+    let at_start = text("mode held = 1 { constraint hook: x = 0.2 [m]; } when x > 0.5 [m] { leave held; }");
+    for error in errors(&at_start) {
+        assert!(matches!(error, Some(Error::Apart { constraint: "hook", t: 0.0, .. })), "{error:?}");
+    }
+    // two that contradict each other
+    let against = text(
+        "mode held { rate first: der(x) = 0 [m/s]; rate second: der(x) = 2 [m/s]; } when x > 0.5 [m] { enter held; }",
+    );
+    for error in errors(&against) {
+        assert!(matches!(error, Some(Error::Apart { .. })), "{error:?}");
+    }
+    let endless =
+        text("memory n [1] = 1; when x*n > 0.5 [m] { set n = -n; } when x*n < -0.4 [m] { set n = -n; }");
+    for error in errors(&endless) {
+        assert!(matches!(error, Some(Error::EndlessEvents { .. })), "{error:?}");
+    }
+}
