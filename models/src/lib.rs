@@ -37,6 +37,7 @@
 //! | [`CartPole`] | 2 | a sampled controller with an observer |
 //! | [`PathFollower`] | 2 | two clocks, one controller within the other |
 //! | [`ElasticCrank`] | 1 | a rod that bends: a coordinate of its own, particles |
+//! | [`DropHammer`] | 2 | a mode that a clock enters, a stop |
 //! | [`NewtonsCradle`] | 5 | stops, impacts one after the other |
 //! | [`Peaucellier`] | 0 | exact straight line |
 //! | [`HartInversor`] | 0 | exact straight line, with fewer bars |
@@ -65,6 +66,7 @@ pub mod crane_rope;
 pub mod dc_motor;
 pub mod differential_drive;
 pub mod double_pendulum;
+pub mod drop_hammer;
 pub mod elastic_crank;
 pub mod engine;
 pub mod excavator;
@@ -110,6 +112,7 @@ pub use crane_rope::{CraneRope, CraneRopeParameters};
 pub use dc_motor::{DcMotor, DcMotorInputs, DcMotorParameters};
 pub use differential_drive::{DifferentialDrive, DifferentialDriveInputs, DifferentialDriveParameters};
 pub use double_pendulum::{DoublePendulum, DoublePendulumParameters};
+pub use drop_hammer::{DropHammer, DropHammerInputs, DropHammerParameters};
 pub use elastic_crank::{ElasticCrank, ElasticCrankParameters};
 pub use engine::{Engine, EngineParameters};
 pub use excavator::{Excavator, ExcavatorInputs, ExcavatorParameters};

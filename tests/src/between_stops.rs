@@ -25,6 +25,38 @@ pub fn rubbing(number: u64) -> String {
     text.trim_end().trim_end_matches('}').to_owned() + &frictions + "}\n"
 }
 
+/// A mechanism of these with modes that tie masses to each other or hold one, which are entered and left on the way. Behind the
+/// outputs of the others are two per mode: whether it holds, and by how much its constraint is off.
+pub fn switching(number: u64, text: &str) -> String {
+    let mut random = Random::new(number ^ 0x5a5a);
+    let mut whole = |from: i64, to: i64| from + random.below((to - from + 1) as usize) as i64;
+    let names: Vec<&str> =
+        ["y1", "y2", "y3", "y4"].into_iter().filter(|it| text.contains(&format!("body b{it} "))).collect();
+    let mut modes = String::new();
+    for mode in 0..whole(1, 3) {
+        let one = names[whole(0, names.len() as i64 - 1) as usize];
+        let other = names[whole(0, names.len() as i64 - 1) as usize];
+        let (place, time) = (whole(-2, 4), whole(1, 15));
+        // a hook, or a clutch between two
+        let (row, off) = if one == other {
+            (format!("constraint c{mode}: {one} = {place}/4*(1 [m]);"), format!("{one} - {place}/4*(1 [m])"))
+        } else {
+            let factor = whole(1, 2);
+            (
+                format!("rate c{mode}: der({one}) = {factor}*der({other});"),
+                format!("(der({one}) - {factor}*der({other}))*(1 [s])"),
+            )
+        };
+        modes += &format!(
+            "    mode m{mode} {{ {row} }}\n    when {one} > {place}/4*(1 [m]) {{ enter m{mode}; }}\n    \
+             when {one} < {}/4*(1 [m]) {{ leave m{mode}; }}\n    when t > {time}/8*(1 [s]) {{ leave m{mode}; }}\n    \
+             output e{mode} = m{mode};\n    output o{mode} [m] = {off};\n",
+            place - 1
+        );
+    }
+    text.trim_end().trim_end_matches('}').to_owned() + &modes + "}\n"
+}
+
 /// A random mechanism: masses on springs, hung in joints of their own, between stops, some of which say the same or are
 /// reached at once. All start at 0, before every stop or at it.
 pub fn random(number: u64) -> (String, usize) {

@@ -25,7 +25,7 @@ macro_rules! entries {
 }
 
 /// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 50] = entries! {
+static LIBRARY: [Entry; 51] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -66,6 +66,7 @@ static LIBRARY: [Entry; 50] = entries! {
     "cart-pole", "cart_pole.rs", "CartPole";
     "path-follower", "path_follower.rs", "PathFollower";
     "elastic-crank", "elastic_crank.rs", "ElasticCrank";
+    "drop-hammer", "drop_hammer.rs", "DropHammer";
     "newtons-cradle", "newtons_cradle.rs", "NewtonsCradle";
     "peaucellier", "peaucellier.rs", "Peaucellier";
     "hart-inversor", "hart_inversor.rs", "HartInversor";
@@ -106,6 +107,7 @@ impl Entry {
             "path-follower" => Settings { end: 12.0, ..Settings::default() },
             // as far as a page shows a turn
             "chaplygin-sleigh" | "differential-drive" => Settings { end: 4.0, ..Settings::default() },
+            "drop-hammer" => Settings { end: 6.0, ..Settings::default() },
             "newtons-cradle" => Settings { end: 3.0, ..Settings::default() },
             _ => Settings::default(),
         }

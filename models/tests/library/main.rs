@@ -14,11 +14,11 @@ mod texts;
 use mbs_runtime::{Components, Dual, Mechanism, State};
 use models::{
     AndrewsSqueezer, BlockOnIncline, BoomCylinder, Brake, CamFollower, CartPendulum, CartPole,
-    ChaplyginSleigh, Chebyshev, CraneRope, DcMotor, DifferentialDrive, DoublePendulum, ElasticCrank, Engine,
-    Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen, JansenWalker, Klann,
-    Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2, NPendulum10,
-    NPendulum40, NewtonsCradle, Pantograph, PathFollower, Peaucellier, Pendulum, PlanetaryGear, QuickReturn,
-    ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress,
+    ChaplyginSleigh, Chebyshev, CraneRope, DcMotor, DifferentialDrive, DoublePendulum, DropHammer,
+    ElasticCrank, Engine, Excavator, FourBar, FourBarFree, GearedMotor, GenevaPinSlot, HartInversor, Jansen,
+    JansenWalker, Klann, Metronome, NFourBar1, NFourBar2, NFourBar10, NFourBar40, NPendulum1, NPendulum2,
+    NPendulum10, NPendulum40, NewtonsCradle, Pantograph, PathFollower, Peaucellier, Pendulum, PlanetaryGear,
+    QuickReturn, ScotchYoke, SliderCrank, SliderCrankFree, SpringMassDamper, Suspension, Tipper, TogglePress,
     TrammelOfArchimedes, VEngine, WattLinkage,
 };
 
@@ -177,6 +177,7 @@ library! {
         -2.0*p.damping_ratio*(stiffness*mass/2.0).sqrt()*at.v.w.powi(2)
     };
     // until the first impact
+    DropHammer: 0.5e-3, 0.2, ["stall"], |p, s, _| p.stall*(1.0 - s.v.phi/p.no_load)*s.v.phi;
     NewtonsCradle: 0.5e-3, 0.2, [], |_, _, _| 0.0;
     Peaucellier: 0.5e-3, 10.0, [], |_, _, _| 0.0;
     HartInversor: 0.5e-3, 10.0, [], |_, _, _| 0.0;

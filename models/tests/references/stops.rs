@@ -1,7 +1,7 @@
-//! Impacts: Newton's cradle.
+//! Impacts and modes: Newton's cradle, a drop hammer.
 
 use mbs_runtime::{Error, Simulation};
-use models::{NewtonsCradle, NewtonsCradleInputs, NewtonsCradleParameters};
+use models::{DropHammer, DropHammerParameters, NewtonsCradle, NewtonsCradleInputs, NewtonsCradleParameters};
 
 use super::{near, to_tolerance};
 
@@ -66,5 +66,54 @@ fn newtons_cradle_with_a_loss_swings_as_one() -> Result<(), Error> {
     let spread = angles.iter().fold(0.0_f64, |spread, angle| spread.max((angle - angles[0]).abs()));
     // all five within their plays, two in each pair, and a tenth of the swing of all
     assert!(spread < 8.0 * p.play / p.length, "{angles:?}");
+    Ok(())
+}
+
+/// When the ram is let go after the rolls have gripped at their full speed, how high it comes and how hard it hits.
+fn blow(p: &DropHammerParameters<f64>) -> [f64; 3] {
+    let all = p.inertia + p.mass * p.radius * p.radius;
+    let (gripped, carried) =
+        (p.inertia / all * p.no_load, p.no_load * (1.0 - p.mass * 9.81 * p.radius / p.stall));
+    let time = all * p.no_load / p.stall;
+    let rate = |t: f64| carried + (gripped - carried) * (-t / time).exp();
+    let lifted = |t: f64| p.radius * (carried * t + (gripped - carried) * time * (1.0 - (-t / time).exp()));
+    let mut t = p.height / (p.radius * gripped);
+    for _ in 0..20 {
+        t -= (lifted(t) - p.height) / (p.radius * rate(t));
+    }
+    let speed = p.radius * rate(t);
+    let top = p.height + speed * speed / (2.0 * 9.81);
+    let fall = (2.0 * top / 9.81).sqrt();
+    [t, t + speed / 9.81 + fall, (1.0 + p.restitution) * p.mass * 9.81 * fall]
+}
+
+/// Three blows, all alike: the motor is at its full speed again when the rolls grip.
+#[test]
+fn a_drop_hammer_hits_as_from_its_height() -> Result<(), Error> {
+    let p = DropHammerParameters::default();
+    let [release, hit, impulse] = blow(&p);
+    let mut run = to_tolerance(DropHammer::declared(), 1e-11).build()?;
+    for cycle in 0..3 {
+        let grip = 0.5 + p.period * f64::from(cycle);
+        run.advance_to(grip + 0.1)?;
+        let (begin, before) = (run.inputs().gripped, run.inputs().anvil_impulse);
+        assert_eq!(begin, 1.0);
+        while run.inputs().gripped == 1.0 {
+            run.step()?;
+        }
+        near("release", run.time() - grip, release, 1e-8);
+        while run.inputs().anvil_impulse == before {
+            run.step()?;
+        }
+        near("hit", run.time() - grip, hit, 1e-8);
+        near("impulse", run.inputs().anvil_impulse - before, impulse, 1e-5);
+    }
+    // with constant steps release and blow are known to a step of 0.5 ms
+    let mut steps = Simulation::new(DropHammer::declared(), 0.5e-3)?;
+    while steps.inputs().anvil_impulse == 0.0 {
+        steps.step()?;
+    }
+    near("hit in steps", steps.time() - 0.5, hit, 2e-3);
+    near("impulse in steps", steps.inputs().anvil_impulse, impulse, 2e-3 * impulse);
     Ok(())
 }

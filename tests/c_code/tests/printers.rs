@@ -146,3 +146,14 @@ fn random_mechanisms_that_stick() {
         assert!(compare(&format!("sticks {number}"), &text, 1e-3, compiler), "{number} starts");
     }
 }
+
+/// The same with modes that are entered and left.
+#[test]
+fn random_mechanisms_with_modes() {
+    let Some(&compiler) = compilers().first() else { return };
+    for number in 0..32 / STRIDE as u64 {
+        let rubbing = between_stops::rubbing(number);
+        let text = Text::declaration(format!("modes {number}"), between_stops::switching(number, &rubbing));
+        assert!(compare(&format!("modes {number}"), &text, 1e-3, compiler), "{number} starts");
+    }
+}

@@ -137,3 +137,53 @@ fn random_impacts_of_constant_steps_take_energy_and_keep_gaps() {
     }
     assert!(impacts > count / 2 && rests > count / 5, "{impacts} stops are hit, {rests} rested on");
 }
+
+/// Modes take energy where they are entered, and give none; their constraints are met while they hold. To a tolerance and with
+/// constant steps.
+#[test]
+fn random_modes_take_energy_and_hold() {
+    let count = if EXHAUSTIVE { 1000 } else { 60 };
+    let mut held = 0;
+    for number in 0..count {
+        let (text, stops) = between_stops::random(number);
+        let text = between_stops::switching(number, &text);
+        let live =
+            Text::declaration("modes.mbs", &text).compile().unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let built = Adaptive::builder(Prepared::new(&live)).tolerances(TIGHT).most_steps(20_000).build();
+        let run = built.unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let mut to_tolerance = Sampled::new(run, 0.02).expect("an interval");
+        let mut in_steps =
+            Run::builder(&live, 1e-4).build().unwrap_or_else(|error| panic!("{error}\n{text}"));
+        // as impacts do, what steps see at their ends lets energy grow by that of a step
+        held += held_by(&mut to_tolerance, (1, 1e-7), stops, &text);
+        held += held_by(&mut in_steps, (200, 0.1), stops, &text);
+    }
+    assert!(held > count, "{held} samples of modes that hold");
+}
+
+/// How many samples of a run see a mode that holds.
+fn held_by(run: &mut dyn System, (steps, allowed): (u64, f64), stops: usize, text: &str) -> u64 {
+    let info = *run.described().info();
+    let (n, m, mut last, mut held) = (info.coordinates.len(), info.constraints.len(), f64::INFINITY, 0);
+    for _ in 0..100 {
+        run.advance(steps).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+        run.state(&mut q, &mut v);
+        let at = At { t: run.time(), q: &q, v: &v };
+        let kinetic = run.described().kinetic_energy(at);
+        let energy = kinetic + run.described().potential_energy(at);
+        let allowed = allowed * (1.0 + kinetic + energy.abs());
+        assert!(energy <= last + allowed, "{energy} after {last} J at {} s\n{text}", at.t);
+        last = last.min(energy);
+        let (mut a, mut multipliers, mut outputs) =
+            (vec![0.0; n], vec![0.0; m], vec![0.0; info.outputs.len()]);
+        run.reactions(&mut a, &mut multipliers).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        run.outputs(&a, &multipliers, &mut outputs).expect("outputs");
+        for pair in outputs.get(stops..).unwrap_or_default().chunks_exact(2) {
+            let [holds, off] = [pair[0], pair[1]];
+            assert!(holds == 0.0 || off.abs() < 1e-9, "{off} at {} s\n{text}", at.t);
+            held += u64::from(holds == 1.0);
+        }
+    }
+    held
+}

@@ -6,7 +6,9 @@
 use std::fmt::Write;
 
 use clap::Args;
-use mbs_runtime::{DeclaredFriction, DeclaredStop, Derivation, Info, Knots, Switch};
+use mbs_runtime::{
+    DeclaredFriction, DeclaredLock, DeclaredStop, DeclaredTransition, Derivation, Info, Knots, Switch,
+};
 
 use super::options::Named;
 use crate::StartValue;
@@ -156,6 +158,7 @@ fn stops(info: &Info) -> String {
         let title = "Friction that sticks: its size while it slides, and the largest one with which it holds";
         section(&mut text, title, &table);
     }
+    modes(info, &mut text);
     if info.stops.is_empty() {
         return text;
     }
@@ -169,6 +172,32 @@ fn stops(info: &Info) -> String {
         &table,
     );
     text
+}
+
+/// The constraints that come and go, and what is set at which moment; nothing without one.
+fn modes(info: &Info, text: &mut String) {
+    let memory = |at: usize| info.inputs.get(at).map_or("", |input| input.name);
+    if !info.modes.locks.is_empty() {
+        let mut table = Table::new(["", "of the mode", "at first", "is 0 while it holds"]);
+        for DeclaredLock { name, mode, formula, .. } in info.modes.locks {
+            let holds = info.inputs.get(*mode).is_some_and(|mode| mode.default > 0.5);
+            table.row([*name, memory(*mode), if holds { "holds" } else { "" }, *formula]);
+        }
+        section(
+            text,
+            "Modes: constraints that come and go; a right-hand side has a part of those that hold",
+            &table,
+        );
+    }
+    if !info.modes.transitions.is_empty() {
+        let mut table = Table::new(["where this begins to hold", "these are set"]);
+        for (at, DeclaredTransition { condition, .. }) in info.modes.transitions.iter().enumerate() {
+            let own = info.sampling.samples.iter().filter(|[of, _]| *of == info.sampling.clocks + at);
+            let names: Vec<&str> = own.map(|[_, at]| memory(*at)).collect();
+            table.row([*condition, &names.join(", ")]);
+        }
+        section(text, "Transitions", &table);
+    }
 }
 
 /// The columns that a name takes: a dot over a letter takes none.

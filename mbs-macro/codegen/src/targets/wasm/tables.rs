@@ -3,7 +3,9 @@
 use mbs_interface::{Explicit, Row};
 use mbs_symbolic::units::Dimension;
 
-use crate::compiled::{Comparison, Compiled, Condition, GROWTH_LIMIT, Pivot, Quantity, Results, Setting, Transition};
+use crate::compiled::{
+    Comparison, Compiled, Condition, GROWTH_LIMIT, Pivot, Quantity, Results, Setting, Transition,
+};
 use crate::targets::words;
 
 /// The tables of a mechanism. `<` is escaped, so that they can stand within a `script` element.

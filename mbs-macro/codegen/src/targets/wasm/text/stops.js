@@ -267,10 +267,12 @@ class AtStops extends Modes {
   toStops(step) {
     const { t, steps, alarm, worstGrowth } = this, q = this.q.slice(), v = this.v.slice();
     try {
-      const pushed = this.push();
+      const hasContacts = this.tables.stops.length > 0, pushed = hasContacts ? this.push() : [];
       step();
-      this.strike(pushed, { t, q, v });
-      this.halt(pushed, { t, q, v });
+      if (hasContacts) {
+        this.strike(pushed, { t, q, v });
+        this.halt(pushed, { t, q, v });
+      }
       this.passAndEngage();
     } catch (failure) {
       Object.assign(this, { t, steps, alarm, worstGrowth });
