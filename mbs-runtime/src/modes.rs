@@ -26,15 +26,17 @@ use crate::{Error, Info, Real, vectors};
 /// So often transitions follow each other at one moment.
 const IN_SEQUENCE: usize = 16;
 /// A mode holds where its constraints are met within this share of the size of the coordinates,
-const CLOSED: f64 = 1e-6;
+pub(crate) const CLOSED: f64 = 1e-6;
 /// or within so many steps at the rate with which they close.
 const STEPS: f64 = 4.0;
 /// So many of Newton's steps lead positions to them, each with a residual that is the square of that before.
 const CLOSINGS: usize = 4;
 /// The least size in m or rad.
 const LEAST_SIZE: f64 = 1e-3;
-/// A value is at its limit below this share of the largest one so far.
+/// A condition begins to hold at its limit, up to this share of the largest difference of its sides so far.
 const ROUNDING: f64 = 1e-12;
+/// One that holds stops to hold where it is off by this share: a mode keeps it at its limit with an error of a step.
+pub(crate) const OFF: f64 = 1e-6;
 /// A value that was 0 from the start on has this size.
 const NONE: f64 = 1e-30;
 /// Impulses leave this share of a rate where its constraint depends on others.
@@ -169,15 +171,22 @@ pub(crate) fn look<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs:
     }
 }
 
-/// The transitions whose conditions have begun to hold, and what their memories are from then on.
-pub(crate) fn due<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &[T]) -> (u32, Each<T>) {
+/// The transitions whose conditions have begun to hold, and what their memories are from then on; conditions that hold are off by
+/// a share.
+pub(crate) fn due<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &[T],
+    off: f64,
+) -> (u32, Each<T>) {
     let (mut due, mut seen) = (0, values(equations, at, inputs));
     for ((of, transition), value) in equations.info().modes.transitions.iter().enumerate().zip(&mut seen) {
         let side = if transition.is_rising { 1.0 } else { -1.0 };
         let (before, now) = (inputs.get(transition.memory).map_or(0.0, |seen| seen.to_f64()), value.to_f64());
         let size = before.abs().max(now.abs());
+        let held = side * before > 0.0;
         let is_at_limit = now.abs() <= ROUNDING * before.abs() && before.abs() > 2.0 * NONE;
-        let holds = side * now > 0.0 || is_at_limit;
+        let holds = if held { side * now >= -(off * before.abs()) } else { side * now > 0.0 || is_at_limit };
         if side * before < 0.0 && holds {
             due |= bit(of);
         }
@@ -186,8 +195,29 @@ pub(crate) fn due<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: 
     (due, seen)
 }
 
-/// Takes the samples of the transitions whose conditions have begun to hold, and of those whose conditions do by that. Gives
-/// them.
+/// The value of a transition, which falls through 0 where its condition begins to hold.
+pub(crate) fn margin<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &[T],
+    transition: usize,
+) -> T {
+    let value = values(equations, at, inputs).get(transition).copied().unwrap_or_default();
+    let declared = equations.info().modes.transitions.get(transition);
+    if declared.is_some_and(|declared| declared.is_rising) { -value } else { value }
+}
+
+/// Notes on which side of its condition every transition is.
+pub(crate) fn note<T: Real>(info: &Info, seen: &Each<T>, inputs: &mut [T]) {
+    for (transition, seen) in info.modes.transitions.iter().zip(seen) {
+        if let Some(to) = inputs.get_mut(transition.memory) {
+            *to = *seen;
+        }
+    }
+}
+
+/// Takes the samples of the transitions whose conditions have begun to hold, those of some that a run has found among them, and
+/// of those whose conditions do by that. Gives them.
 ///
 /// # Errors
 /// [`Error::EndlessEvents`] where they follow each other without an end.
@@ -195,16 +225,14 @@ pub(crate) fn pass<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
     inputs: &mut [T],
+    (mut found, off): (u32, f64),
 ) -> Result<u32, Error> {
     let info = equations.info();
     let mut all = 0;
     for _ in 0..=IN_SEQUENCE {
-        let (due, seen) = due(equations, at, inputs);
-        for (transition, seen) in info.modes.transitions.iter().zip(seen) {
-            if let Some(to) = inputs.get_mut(transition.memory) {
-                *to = seen;
-            }
-        }
+        let (due, seen) = due(equations, at, inputs, off);
+        let due = due | core::mem::take(&mut found);
+        note(info, &seen, inputs);
         if due == 0 {
             return Ok(all);
         }

@@ -122,7 +122,7 @@ pub fn strike<T: Real>(
     let is_struck = strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     let has_halted = halt(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
-    let passes = pass(equations, At { t, q, v }, inputs)? != 0;
+    let passes = pass(equations, At { t, q, v }, inputs, (0, modes::OFF))? != 0;
     if passes {
         // with the velocities of before the way of a step is known, and with those behind where they lead
         for is_first in [true, false] {

@@ -5,7 +5,7 @@
 
 use mbs_runtime::equations::{At, Equations, Preparation, Room, Start, check, consistent, project, reach};
 use mbs_runtime::{
-    Constraint, Dimension, Error, Gains, Info, Pivot, Quantity, Sampling, Simulation, mechanism, start,
+    Constraint, Dimension, Error, Gains, Info, Modes, Pivot, Quantity, Sampling, Simulation, mechanism, start,
 };
 
 mechanism! {
@@ -76,6 +76,7 @@ impl Pendulums {
             Sampling::NONE,
             &[],
             &[],
+            Modes::NONE,
             &[],
         );
         Self { lengths: lengths.to_vec(), info }

@@ -8,7 +8,7 @@ use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::{Error, Real, vectors};
 
 /// A step is looked through in so many parts of equal length.
-const PARTS: u32 = 4;
+pub(super) const PARTS: u32 = 4;
 /// The share of a part over which slopes are taken.
 const SLOPE: f64 = 1e-5;
 /// Golden sections of a part, after which its extremum is known to a thousandth of its length.
@@ -108,11 +108,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         for (index, bit) in stops.chain(bits(watched.count)).filter(|(_, bit)| at_events & bit != 0) {
             let is_rising = rising & bit != 0;
             let Beginning { value, rounding, is_zero, .. } = self.beginning(index, watched);
-            let is_transition = gaps::transition_in(self.dynamics.equations(), index).is_some();
             let is_turned = match judged & bit != 0 {
                 true => turned & bit != 0,
-                // what it has set may turn its value around
-                false if is_transition => false,
                 false => self.is_turned(index, is_rising, rounding, watched),
             };
             if is_zero || self.is_held_by_others(index, watched) {
@@ -172,6 +169,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let (number, zero) = (D::Real::from_f64, D::Real::default());
         let direction = watched.direction(&self.dynamics, index)?;
         let (start, end) = (self.before.t, self.now.t);
+        if let Some(transition) = gaps::transition_in(self.dynamics.equations(), index) {
+            return self.beginning_to_hold(index, transition, watched);
+        }
         let Beginning { first, t: mut from, value: mut before, is_zero, .. } = self.beginning(index, watched);
         if is_zero || self.is_held_by_others(index, watched) {
             return None;
@@ -259,7 +259,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// Where a value of the same sign at both ends of a part has the other sign between, if it
     /// does.
-    fn extremum(
+    pub(super) fn extremum(
         &mut self,
         [from, to]: [D::Real; 2],
         [before, after]: [D::Real; 2],
@@ -324,7 +324,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// A value at the end of a step from the start of the last one to `t`, projected; by
     /// interpolation where there is no such step.
-    fn value_of_step(&mut self, t: D::Real, index: usize, watched: &mut Watched<'_, D>) -> D::Real {
+    pub(super) fn value_of_step(
+        &mut self,
+        t: D::Real,
+        index: usize,
+        watched: &mut Watched<'_, D>,
+    ) -> D::Real {
         let Self { dynamics, inputs, before, next, attempt, all, between, .. } = self;
         between.lose_stages();
         match attempt.step::<D, S>((&*dynamics, &*inputs), before, t, next) {

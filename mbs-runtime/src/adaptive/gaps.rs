@@ -12,6 +12,9 @@ use crate::sticking::{all_frictions, direction};
 use crate::vectors;
 use crate::{Info, Real, modes};
 
+/// What a mode holds is met within so many times the tolerance.
+const TOLERANCES: f64 = 100.0;
+
 /// The memory of a run of its stops.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stopping {
@@ -22,6 +25,10 @@ pub(super) struct Stopping {
     /// The size of coordinates from which on the relative tolerance decides: at the origin nothing else tells what is
     /// rounding.
     pub least_size: f64,
+    /// Constraints of modes are met within this share of the size of the coordinates.
+    pub closed: f64,
+    /// Conditions that hold are off by this share of the largest difference of their sides.
+    pub off: f64,
     /// The stops that are rested on from the next jump on, as they were not left by more than rounding.
     pub stuck: u32,
     /// The stops at which the next jump is.
@@ -42,6 +49,8 @@ impl Stopping {
             longest: [0.0; MOST_CONTACTS],
             size: tolerances.atol / tolerances.rtol,
             least_size: tolerances.atol / tolerances.rtol,
+            off: modes::OFF.max(0.1 * TOLERANCES * tolerances.rtol),
+            closed: modes::CLOSED.max(TOLERANCES * tolerances.rtol),
             stuck: 0,
             reached: 0,
             looks: (f64::NAN, 0),
@@ -76,12 +85,8 @@ pub(super) fn value_of_transition<D: Dynamics>(
     at: At<'_, D::Real>,
     transition: usize,
 ) -> D::Real {
-    let equations = dynamics.equations();
     let mut inputs = dynamics.inputs_at(at.t, inputs);
-    let values = dynamics.with_inputs(&mut inputs, |inputs| modes::values(equations, at, inputs));
-    let value = values.get(transition).copied().unwrap_or_default();
-    let is_rising = equations.info().modes.transitions.get(transition).is_some_and(|it| it.is_rising);
-    if is_rising { -value } else { value }
+    dynamics.with_inputs(&mut inputs, |inputs| modes::margin(dynamics.equations(), at, inputs, transition))
 }
 
 /// The set of what a run watches by itself: stops, frictions, and behind all contacts transitions.

@@ -61,7 +61,7 @@ impl<D: Dynamics> Jump<'_, D> {
     /// The stops that are rested on and pull and the frictions that hold more than they can or slide against their direction,
     /// the stops that push, open ones that are closed and do not open; and the constraints of modes that are not met, with
     /// transitions whose conditions have begun to hold.
-    pub fn look(&mut self, size: f64) -> [u32; 4] {
+    pub fn look(&mut self, size: f64, off: f64) -> [u32; 4] {
         let locked = locked(self.dynamics.equations().info(), self.inputs);
         let entered = if locked == 0 { 0 } else { self.hit(locked, size) };
         let slopes = self.slopes();
@@ -82,7 +82,7 @@ impl<D: Dynamics> Jump<'_, D> {
             let least = CLOSED * size * number(&slopes, stop);
             !has(held, stop) && number(&gaps.gap, stop) <= least && number(&gaps.rate, stop) <= 0.0
         });
-        let (due, _) = modes::due(equations, at, inputs);
+        let (due, _) = modes::due(equations, at, inputs, off);
         [pulls, pushes, closed, entered | due << MOST_CONTACTS]
     }
 
@@ -238,7 +238,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let friction = all_frictions(self.dynamics.equations().info());
         let info = self.dynamics.equations().info();
         let locked = locked(info, self.inputs);
-        let allowed = |row: usize| modes::allowed(stopping.size, number(&slopes, row));
+        let allowed = |row: usize| stopping.closed * stopping.size * number(&slopes, row);
         are_met(info, self.t.to_f64(), locked, |row| number(&gaps.gap, row), allowed)?;
         let closed = (held | reached) & all_stops(info) | those(count, is_closed);
         let still = self.still(&gaps.acceleration, stopping.size);

@@ -33,6 +33,7 @@ mod scheme;
 mod stops;
 mod switches;
 mod switching;
+mod transitions;
 mod typed;
 
 pub(crate) use attempt::is_healthy;

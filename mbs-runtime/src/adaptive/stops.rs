@@ -74,13 +74,20 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             return Ok(());
         }
         self.stopping.effort = self.effort;
-        let Stopping { kept, size, .. } = self.stopping;
-        let [pulled, pushing, closed, begun] = self.with_jump(|jump| jump.look(size));
+        let Stopping { kept, size, off, .. } = self.stopping;
+        let [pulled, pushing, closed, begun] = self.with_jump(|jump| jump.look(size, off));
         self.stopping.kept = kept & !pushing;
         // what a jump has looked at already leaves its event
         let known = among(self.happened.all | self.happened.judged, self.dynamics.equations().info());
         let reached = pulled & !kept | closed & !known | begun;
-        if reached == 0 { Ok(()) } else { self.jump_at(reached) }
+        if reached != 0 {
+            return self.jump_at(reached);
+        }
+        self.with_memories(|equations, at, inputs| {
+            let (_, seen) = modes::due(equations, at, inputs, off);
+            modes::note(equations.info(), &seen, inputs);
+        });
+        Ok(())
     }
 
     /// Makes the jump that is due at the present time, if one is.
@@ -243,7 +250,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     fn jump_at(&mut self, reached: u32) -> Result<(), Error> {
         // what lies behind was computed with the memories of before
         self.inputs_mut();
-        let passed = self.with_memories(|equations, at, inputs| modes::pass(equations, at, inputs))?;
+        let (found, off) = (reached >> MOST_CONTACTS, self.stopping.off);
+        self.with_memories(|equations, at, inputs| modes::pass(equations, at, inputs, (found, off)))?;
         let (longest, mut stopping) = (self.effort.longest, self.stopping);
         let found = self.with_jump(|jump| {
             let held = held(jump.dynamics.equations(), jump.inputs);
@@ -285,7 +293,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let Happened { all, rising, due, judged, turned, .. } = self.happened;
         let ours = watched_of(of_run(dynamics.equations().info()));
         // an open stop that is closed still is left from its event; the force at another one has not been looked at
-        let left = watched_of(closed & !now_held | passed << MOST_CONTACTS);
+        let left = watched_of(closed & !now_held);
         self.happened = Happened {
             all: all & !ours | left,
             rising: rising & !ours,

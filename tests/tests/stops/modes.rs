@@ -2,7 +2,9 @@
 
 use mbs_live::{Run, Text};
 use mbs_runtime::lanes::Pack as Lanes;
-use mbs_runtime::{Adaptive, Dop853, Error, Rattle, Simulation, System, TrBdf2, mechanism};
+use mbs_runtime::{
+    Adaptive, Dop853, Dual, Error, Rattle, Real, Simulation, System, Tolerances, TrBdf2, mechanism,
+};
 
 use super::{TIGHT, declared};
 
@@ -236,4 +238,79 @@ fn errors_name_what_is_wrong() {
     for error in errors(&endless) {
         assert!(matches!(error, Some(Error::EndlessEvents { .. })), "{error:?}");
     }
+}
+
+mechanism! {
+    /// A plate that turns with 10 rad/s, and takes a wheel along from an angle on.
+    Meeting {
+        dof = 2;
+        param angle = 2;
+        body plate (phi) { inertia = 1 [kg*m^2]; }
+        body wheel (psi) { inertia = 2 [kg*m^2]; }
+        mode engaged { rate lock: der(phi) = der(psi); }
+        when phi > angle { enter engaged; }
+        start { der(phi) = 10 [rad/s]; }
+    }
+}
+
+/// φ = α + 10/3 (t − α/10) behind the angle α, so that its derivative by α is 2/3: the moment moves with it.
+#[test]
+fn derivatives_go_through_what_enters_a_mode() -> Result<(), Error> {
+    let angle = Dual::<f64, 1>::variable(2.0, 0);
+    let run = Adaptive::builder(Meeting::new(MeetingParameters { angle })?);
+    let mut run = run.scheme::<Dop853>().tolerances(TIGHT).build()?;
+    run.advance_to(1.0)?;
+    let phi = run.state().q.phi;
+    assert!((phi.to_f64() - (2.0 + 10.0 / 3.0 * 0.8)).abs() < 1e-9, "{phi:?}");
+    assert!((phi.partial(0) - 2.0 / 3.0).abs() < 1e-8, "{phi:?}");
+    Ok(())
+}
+
+mechanism! {
+    /// A mass on a spring.
+    Swing {
+        dof = 1;
+        body mass (x) { mass = 1 [kg]; }
+        potential spring = 100 [N/m]*x^2/2;
+        memory outside [1] = 0;
+        memory turned [1] = 0;
+        when x > 0.1 [m] { set outside = outside + 1; }
+        when der(x) <= 0 [m/s] { set turned = turned + 1; }
+        start { der(x) = 2 [m/s]; }
+    }
+}
+
+/// Regression: a run to a tolerance saw each condition once, as it did not look whether it had stopped to hold. In 6.2 s there
+/// are ten swings, many of them within a few steps.
+#[test]
+fn a_condition_begins_to_hold_again_and_again() -> Result<(), Error> {
+    for rtol in [1e-3, 1e-6, 1e-10] {
+        let tolerances = Tolerances { rtol, ..TIGHT };
+        let mut run =
+            Adaptive::builder(Swing::declared()).scheme::<Dop853>().tolerances(tolerances).build()?;
+        run.advance_to(6.2)?;
+        assert_eq!((run.inputs().outside, run.inputs().turned), (10.0, 10.0), "{rtol}");
+    }
+    let mut run = Simulation::new(Swing::declared(), 1e-3)?;
+    run.advance_to(6.2)?;
+    assert_eq!((run.inputs().outside, run.inputs().turned), (10.0, 10.0));
+    Ok(())
+}
+
+/// Regression: within a step the polynomial between its ends, and a step that ends in it, leave what a mode keeps at its limit by
+/// their error. A run to a tolerance found that the condition began to hold anew.
+#[test]
+fn what_holds_does_not_begin_anew() -> Result<(), Error> {
+    for rtol in [1e-2, 1e-4, 1e-7, 1e-10] {
+        let tolerances = Tolerances { rtol, ..TIGHT };
+        let mut run = Adaptive::builder(Caught::declared()).tolerances(tolerances).build()?;
+        let (mut entered, mut last) = (0, 0.0);
+        while run.time() < 1.99 {
+            run.step()?;
+            entered += usize::from(run.inputs().hung > last);
+            last = run.inputs().hung;
+        }
+        assert_eq!((entered, last), (1, 1.0), "{rtol}");
+    }
+    Ok(())
 }

@@ -14,7 +14,7 @@ use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
 use super::words::{
     block, definition, doc, equals, helped, name, name_before_unit, path, properties, semicolon, usable,
-    with_unit,
+    with_unit, written,
 };
 use super::{Condition, Coordinate, Declaration, EnergyRole, ItemKind, Load, Role, StartEntry};
 use super::{elements, groups, joints};
@@ -143,11 +143,11 @@ pub(super) fn condition(input: ParseStream<'_>, example: &str) -> Result<Conditi
     while !ahead.is_empty() && !ahead.peek(Token![<]) && !ahead.peek(Token![>]) {
         text.extend([ahead.parse::<TokenTree>()?]);
     }
-    let left_text = text.to_string();
+    let left_text = written(text.clone());
     while !(ahead.is_empty() || ahead.peek(Token![;]) || ahead.peek(token::Brace)) {
         text.extend([ahead.parse::<TokenTree>()?]);
     }
-    let text = text.to_string();
+    let text = written(text);
     Ok(Condition { left, comparison, comparison_span, right, text, left_text })
 }
 

@@ -1,7 +1,7 @@
 //! The parts of all statements: names, paths, signs and blocks.
 
 use mbs_symbolic::units;
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Delimiter, Ident, Spacing, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::spanned::Spanned;
@@ -156,4 +156,56 @@ pub(super) fn with_unit(
     };
     semicolon(input)?;
     Ok((name, unit, value))
+}
+
+/// Tokens as people write them: operators and units apart, paths and calls together.
+pub(super) fn written(tokens: TokenStream) -> String {
+    let (mut text, mut is_apart, mut is_operand) = (String::new(), false, false);
+    for token in tokens {
+        let (word, is_before, is_behind) = match &token {
+            TokenTree::Punct(mark) => match mark.as_char() {
+                '.' | '^' => (mark.as_char().to_string(), false, false),
+                ',' => (",".to_owned(), false, true),
+                // a sign
+                sign @ ('-' | '!') if !is_operand => (sign.to_string(), is_apart, false),
+                other => (other.to_string(), is_apart, mark.spacing() == Spacing::Alone),
+            },
+            TokenTree::Group(group) => {
+                let [open, close] = match group.delimiter() {
+                    Delimiter::Parenthesis => ["(", ")"],
+                    Delimiter::Bracket => ["[", "]"],
+                    Delimiter::Brace => ["{ ", " }"],
+                    Delimiter::None => ["", ""],
+                };
+                let is_call = group.delimiter() == Delimiter::Parenthesis && is_operand;
+                (format!("{open}{}{close}", written(group.stream())), is_apart && !is_call, true)
+            }
+            TokenTree::Ident(_) | TokenTree::Literal(_) => (token.to_string(), is_apart, true),
+        };
+        if is_before {
+            text.push(' ');
+        }
+        text += &word;
+        is_operand = !matches!(token, TokenTree::Punct(_));
+        is_apart = is_behind;
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::written;
+
+    #[test]
+    fn conditions_are_written_as_people_do() {
+        for text in [
+            "bar.end.y < 0 [m]",
+            "sqrt(x^2 + y^2) >= -2 [mm]",
+            "distance(a.p, ground) < l",
+            "if x > 0 { -x } else { 1 } <= 3",
+        ] {
+            let tokens = text.parse().expect("tokens");
+            assert_eq!(written(tokens), text);
+        }
+    }
 }

@@ -86,7 +86,9 @@ class Modes extends Sticking {
       const due = this.transitionValues().map((now, of) => {
         const [memory, side] = this.tables.transitions[of], before = this.inputs[memory];
         const isAtLimit = Math.abs(now) <= 1e-12 * Math.abs(before) && Math.abs(before) > 2e-30;
-        const holds = side * now > 0 || isAtLimit, size = Math.max(Math.abs(before), Math.abs(now));
+        // what a mode keeps at its limit is off by the error of a step
+        const hasHeld = side * before > 0;
+        const holds = hasHeld ? side * now >= -(1e-6 * Math.abs(before)) : side * now > 0 || isAtLimit, size = Math.max(Math.abs(before), Math.abs(now));
         this.inputs[memory] = holds ? side * size : -side * size;
         return side * before < 0 && holds;
       });
