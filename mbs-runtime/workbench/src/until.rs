@@ -25,7 +25,7 @@ pub enum Ending {
 }
 
 impl Until {
-    /// The name of a declared event, or a condition of the form `x3 > 200mm`: a coordinate, the rate
+    /// The name of a declared event, that of a mode, which ends the run where it is entered, or a condition of the form `x3 > 200mm`: a coordinate, the rate
     /// `der(…)` of one, an output, or the multiplier `lambda(…)` of a constraint, and a value with an optional
     /// unit.
     ///
@@ -35,6 +35,9 @@ impl Until {
         let text = text.trim();
         if let Some(at) = info.events.iter().position(|event| event.name == text) {
             return Ok(Self { text: text.to_owned(), ending: Ending::Event(at) });
+        }
+        if let Some(entered) = entered(info, of_mode(text)) {
+            return Ok(Self { text: text.to_owned(), ending: Ending::Threshold(entered?) });
         }
         let Some(at) = text.find(['<', '>']) else { return Err(no_condition(info, text)) };
         let (name, rest) = text.split_at(at);
@@ -68,6 +71,28 @@ impl Until {
             Direction::Rising | Direction::Either => found - value,
         })
     }
+}
+
+/// What stands behind `mode =`, which may be left out.
+fn of_mode(text: &str) -> &str {
+    let named = text.strip_prefix("mode").and_then(|rest| rest.trim_start().strip_prefix('='));
+    named.map_or(text, str::trim)
+}
+
+/// Where a mode of this name is entered, if there is one: its output tells.
+fn entered(info: &Info, name: &str) -> Option<Result<Threshold, Error>> {
+    info.modes.modes.iter().find(|mode| mode.name == name)?;
+    let output = info.outputs.iter().position(|output| output.name == name);
+    Some(output.map_or_else(
+        || {
+            let reason = format!("a mode is seen by an output of its name: `output {name} = {name};`");
+            Err(Error::Name { name: name.to_owned(), reason })
+        },
+        |at| {
+            let (measured, direction) = (Measured::Output(at), Direction::Rising);
+            Ok(Threshold { measured, value: 0.5, direction })
+        },
+    ))
 }
 
 /// Why a text without a comparison ends no run.
@@ -132,6 +157,11 @@ mod tests {
             body latch (x) { mass = 1 [kg]; }
             coupler rod: x = 0.1 [m]*theta;
             event open: theta = 90 [deg] rising;
+            mode held { constraint catch: theta = 1; }
+            mode bolted { constraint bolt: theta = 0; }
+            when theta > 1 { enter held; }
+            when t > 9 [s] { leave held; enter bolted; }
+            output held = held;
             start { der(theta) = 1 [rad/s]; }
             output opening [mm] = x;
         }
@@ -164,8 +194,17 @@ mod tests {
     }
 
     #[test]
+    fn a_mode_is_entered() {
+        for text in ["held", "mode=held", "mode = held"] {
+            let Ok(Ending::Threshold(found)) = read(text) else { panic!("{text} is a mode") };
+            assert_eq!((found.measured, found.direction), (Measured::Output(1), Direction::Rising));
+        }
+    }
+
+    #[test]
     fn other_conditions_are_refused() {
         for (text, part) in [
+            ("bolted", "output bolted = bolted;"),
             ("opens", "or a declared event (`open`)"),
             ("x = 3", "x3 > 200mm"),
             ("y > 3", "theta"),
