@@ -28,8 +28,15 @@ pub(crate) type Each<T> = [T; MOST_CONTACTS];
 const MOST_PIVOTS: usize = 512;
 /// A negative value is rounding up to this share of the terms of which it is made.
 const ROUNDING: f64 = 1e-12;
+/// The roundings of a few operations.
+const OPERATIONS: f64 = 64.0;
 /// A pivot below this share of its row depends on those before it: these stops press one way.
 pub(crate) const DEPENDENT: f64 = 1e-10;
+
+/// What is no more than this share is rounding: at least that of some operations in the scalar.
+pub(crate) fn share<T: Real>(least: f64) -> f64 {
+    least.max(OPERATIONS * T::EPSILON.to_f64())
+}
 
 /// The gaps of stops in a state.
 #[derive(Clone, Copy, Debug)]
@@ -174,7 +181,8 @@ impl<'a, T: Real> Contacts<'a, T> {
             core::array::from_fn(|of| if of < self.stops { -self.mobility(of, by) } else { T::default() });
         let shares = self.solve(active & !bit(by), &column);
         let ratio = |stop: usize| number(x, stop) / number(&shares, stop);
-        let is_shrinking = |stop: &usize| !has(bound, *stop) && number(&shares, *stop) > DEPENDENT;
+        let is_shrinking =
+            |stop: &usize| !has(bound, *stop) && number(&shares, *stop) > share::<T>(DEPENDENT);
         let shrinking = (0..self.stops).filter(is_shrinking);
         shrinking.reduce(|first, stop| if ratio(stop) < ratio(first) { stop } else { first })
     }
@@ -184,7 +192,7 @@ impl<'a, T: Real> Contacts<'a, T> {
         let largest = x.iter().fold(0.0_f64, |largest, x| largest.max(x.to_f64().abs()));
         (0..self.stops).filter(|stop| has(set, *stop)).find(|&stop| {
             let own = number(x, stop);
-            if has(active, stop) && own < -ROUNDING * largest {
+            if has(active, stop) && own < -share::<T>(ROUNDING) * largest {
                 return true;
             }
             let b = number(b, stop);
@@ -193,7 +201,7 @@ impl<'a, T: Real> Contacts<'a, T> {
                 let term = self.mobility(stop, by).to_f64() * x.to_f64();
                 (rate, size) = (rate + term, size + term.abs());
             }
-            rate < -ROUNDING * size
+            rate < -share::<T>(ROUNDING) * size
         })
     }
 
@@ -236,7 +244,7 @@ fn eliminate<T: Real>(rows: &mut [[T; MOST_CONTACTS + 1]; MOST_CONTACTS], count:
     let mut is_pivot = [false; MOST_CONTACTS];
     for at in 0..count {
         let pivot = entry(rows, at, at);
-        let least = DEPENDENT * diagonal.get(at).copied().unwrap_or_default();
+        let least = share::<T>(DEPENDENT) * diagonal.get(at).copied().unwrap_or_default();
         let is_independent = pivot.to_f64() > least;
         if let Some(is_pivot) = is_pivot.get_mut(at) {
             *is_pivot = is_independent;

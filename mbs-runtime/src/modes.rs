@@ -14,7 +14,7 @@
 //! that also what jumps is seen; and the largest difference of the two sides of the condition so far, of which a small share
 //! is rounding. What stays at its limit holds.
 
-use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, those};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share, those};
 use crate::declared::DeclaredLock;
 use crate::equations::{At, Equations};
 use crate::mechanism::growth_limit;
@@ -89,13 +89,13 @@ pub(crate) fn are_met(
 }
 
 /// How far constraints may be off where their mode is entered, given Σ |∂g/∂q|.
-pub(crate) fn allowed(size: f64, slope: f64) -> f64 {
-    CLOSED * (LEAST_SIZE + size) * slope
+pub(crate) fn allowed<T: Real>(size: f64, slope: f64) -> f64 {
+    share::<T>(CLOSED) * (LEAST_SIZE + size) * slope
 }
 
 /// How much may be left behind impulses of rates up to one: more is left where constraints depend on others.
-pub(crate) fn left_of(fastest: f64) -> f64 {
-    LEFT * fastest
+pub(crate) fn left_of<T: Real>(fastest: f64) -> f64 {
+    share::<T>(LEFT) * fastest
 }
 
 /// Leads velocities to the constraints of the modes that hold, at the start or the end of a step of `h` seconds.
@@ -120,7 +120,7 @@ pub(crate) fn engage<T: Real>(
     let resting = held(equations, inputs) & all_stops(info);
     let answered = Contacts::at(equations, (t, q), |contacts| {
         let way = |row: usize| STEPS * h.to_f64() * number(&gaps.rate, row).abs();
-        let allowed = |row: usize| allowed(size, contacts.slope(row)) + way(row);
+        let allowed = |row: usize| allowed::<T>(size, contacts.slope(row)) + way(row);
         are_met(info, t.to_f64(), locked, |row| number(&gaps.gap, row), allowed)?;
         // written so that a NaN is no growth
         let has_growth = contacts.growth() < growth_limit();
@@ -128,7 +128,7 @@ pub(crate) fn engage<T: Real>(
         let (_, impulses) = solved.ok_or_else(|| unanswered(info, t.to_f64(), locked))?;
         let left = contacts.rates(&impulses);
         let after = |row: usize| number(&gaps.rate, row) + number(&left, row);
-        let left = |row: usize| left_of(number(&gaps.rate, row).abs() + contacts.slope(row) * fastest);
+        let left = |row: usize| left_of::<T>(number(&gaps.rate, row).abs() + contacts.slope(row) * fastest);
         are_met(info, t.to_f64(), locked, after, left)?;
         contacts.add(&impulses, changes.v);
         Ok(())
@@ -185,8 +185,12 @@ pub(crate) fn due<T: Real>(
         let (before, now) = (inputs.get(transition.memory).map_or(0.0, |seen| seen.to_f64()), value.to_f64());
         let size = before.abs().max(now.abs());
         let held = side * before > 0.0;
-        let is_at_limit = now.abs() <= ROUNDING * before.abs() && before.abs() > 2.0 * NONE;
-        let holds = if held { side * now >= -(off * before.abs()) } else { side * now > 0.0 || is_at_limit };
+        let is_at_limit = now.abs() <= share::<T>(ROUNDING) * before.abs() && before.abs() > 2.0 * NONE;
+        let holds = if held {
+            side * now >= -(share::<T>(off) * before.abs())
+        } else {
+            side * now > 0.0 || is_at_limit
+        };
         if side * before < 0.0 && holds {
             due |= bit(of);
         }

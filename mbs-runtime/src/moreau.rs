@@ -20,7 +20,7 @@
 //! J. J. Moreau (1988), Unilateral contact and dry friction in finite freedom dynamics; M. Jean, Comput. Methods Appl. Mech.
 //! Eng. 177 (1999) 235; V. Acary, ibid. 256 (2013) 224, for the correction of positions.
 
-use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, has, number, those};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, has, number, share, those};
 use crate::equations::{At, Equations};
 use crate::halting::halt;
 use crate::mechanism::growth_limit;
@@ -306,7 +306,7 @@ impl<'a, T: Real> Striking<'a, T> {
             for by in 0..self.contacts.stops() {
                 size += (self.contacts.mobility(of, by).to_f64() * number(impulses, by)).abs();
             }
-            ROUNDING * size
+            share::<T>(ROUNDING) * size
         })
     }
 }
@@ -337,7 +337,7 @@ pub fn begin<T: Real>(
             return Err(Error::Behind { t: at.t.to_f64(), stop: name, gap: number(&gaps.gap, stop) });
         }
         let closed = those(count, |stop| number(&gaps.gap, stop) <= allowed(stop));
-        let met = |row: usize| modes::allowed(size / BEHIND, contacts.slope(row));
+        let met = |row: usize| modes::allowed::<T>(size / BEHIND, contacts.slope(row));
         are_met(info, at.t.to_f64(), locked, |row| number(&gaps.gap, row), met)?;
         let taken =
             taken(&contacts, (closed, locked), &gaps.acceleration.map(|acceleration| h * acceleration));

@@ -1,7 +1,7 @@
 //! The forces at stops that are rested on, and of frictions that stick.
 
 use crate::Real;
-use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_CONTACTS, bit, those};
+use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_CONTACTS, bit, share, those};
 use crate::equations::{At, Equations};
 use crate::modes::locked;
 use crate::sticking::frictions;
@@ -93,7 +93,7 @@ pub fn are_independent<T: Real>(equations: &dyn Equations<T>, at: (T, &[T]), sto
             // what is left of W without the others
             let own = contacts.mobility(last, last).to_f64();
             let left = own - contacts.rates(&shares).get(last).map_or(0.0, |rate| rate.to_f64());
-            left > DEPENDENT * own
+            left > share::<T>(DEPENDENT) * own
         })
     };
     (0..stops.len()).all(|count| is_independent(count).unwrap_or(false))

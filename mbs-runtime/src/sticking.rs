@@ -12,7 +12,7 @@
 //! then move against its direction sticks after all. One that has no hold, as on a slider at its dead centre, goes on in the
 //! direction of s̈. With the forces at stops that are rested on this is one problem of few rows.
 
-use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share};
 use crate::equations::{At, Equations};
 use crate::modes::{all_stops, locked, locks, note_multipliers};
 use crate::pressing::{held, pressed};
@@ -119,7 +119,7 @@ pub(crate) fn loose<T: Real>(set: u32, forces: &Each<T>, most: impl Fn(usize) ->
         let (force, most) = (number(forces, row).abs(), most(row));
         // what has no largest force does not stick
         match most > 0.0 {
-            true if force > (1.0 + ROUNDING) * most => force / most,
+            true if force > (1.0 + share::<T>(ROUNDING)) * most => force / most,
             true => 0.0,
             false => f64::INFINITY,
         }

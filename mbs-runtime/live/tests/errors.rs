@@ -252,3 +252,21 @@ fn what_nothing_uses_is_told() {
     assert!(!c.source.text.contains("cart_splines"));
     assert!(warnings.to_string().starts_with("Warning: this parameter is never used"), "{warnings}");
 }
+
+/// Two pads of one brake let go one after the other, with less than the sum of what each holds.
+#[test]
+fn frictions_that_hold_one_motion_are_warned_of() {
+    let warnings = |second: &str| {
+        let text = format!(
+            "Brake {{ dof = 2; body disc (phi) {{ inertia = 1 [kg*m^2]; }} body other (psi) {{ inertia = 1 [kg*m^2]; }}
+                torsion_friction inner (disc, ground) {{ law = coulomb; torque = 3 [N*m]; breakaway = 6 [N*m]; }}
+                torsion_friction outer {second} }}"
+        );
+        let (_, warnings) =
+            Text::declaration("brake.mbs", text).check().unwrap_or_else(|error| panic!("{error}"));
+        warnings.to_string()
+    };
+    let told = warnings("(disc, ground) { law = coulomb; torque = 3 [N*m]; breakaway = 6 [N*m]; }");
+    assert!(told.contains("`outer` holds the same motion as `inner`"), "{told}");
+    assert_eq!(warnings("(other, ground) { law = coulomb; torque = 3 [N*m]; breakaway = 6 [N*m]; }"), "");
+}

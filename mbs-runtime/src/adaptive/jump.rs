@@ -266,7 +266,9 @@ impl<D: Dynamics> Jump<'_, D> {
         let stuck = core::mem::take(&mut stopping.stuck);
         let rests = |stop: usize| is_still(&rates, &still, stop) || has(stuck, stop);
         let resting = those(count, |stop| has(closed & !pulling, stop) && rests(stop));
-        let left = |row: usize| JUMPS * number(&still, row) + modes::left_of(number(&gaps.rate, row).abs());
+        let left = |row: usize| {
+            JUMPS * number(&still, row) + modes::left_of::<D::Real>(number(&gaps.rate, row).abs())
+        };
         are_met(info, self.t.to_f64(), locked, |row| number(&rates, row), left)?;
         let found = if is_impact { 0 } else { reached };
         let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);

@@ -129,6 +129,26 @@ impl Resolver<'_> {
         Contact { gap, rate, acceleration, slopes }
     }
 
+    /// Frictions that hold one motion, and more than they brake it with.
+    pub(super) fn parallel_frictions(&self) -> Vec<Diagnostic> {
+        let mut found = Vec::new();
+        for (at, second) in self.frictions.iter().enumerate() {
+            let is_alike = |first: &&Friction| {
+                let holds_more = [first, second].iter().any(|it| it.limits[0] != it.limits[1]);
+                holds_more && first.contact.slopes == second.contact.slopes
+            };
+            let Some(first) = self.frictions.iter().take(at).find(is_alike) else { continue };
+            let [first_name, name] = [first, second].map(|it| &it.quantity.name);
+            let message = format!(
+                "`{name}` holds the same motion as `{first_name}`, and they let go one after the other"
+            );
+            let help = "describe them as one friction, which holds the sum of both";
+            let note = format!("`{first_name}` is declared here");
+            found.push(Diagnostic::new(second.span, message).help(help).note(first.span, note));
+        }
+        found
+    }
+
     /// Refuses what does not go with friction that sticks.
     pub(super) fn check_frictions(&mut self) {
         let Some(friction) = self.frictions.first() else { return };

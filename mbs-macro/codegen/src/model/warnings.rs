@@ -37,6 +37,7 @@ impl Resolver<'_> {
             .chain(self.impacts())
             .chain(self.rates_of_positions())
             .chain(self.never_set(declaration))
+            .chain(self.parallel_frictions())
             .collect()
     }
 

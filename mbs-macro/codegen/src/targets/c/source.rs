@@ -53,11 +53,13 @@ fn default_inputs(target: &Target<'_>) -> &'static str {
     if target.compiled.has_declared_inputs() { include_str!("text/inputs.c") } else { "" }
 }
 
+const ROUNDING: &str = include_str!("text/rounding.c");
+
 /// Contacts, with frictions that stick and modes that hold; nothing without one.
 fn contacts(compiled: &Compiled) -> String {
     match compiled.contacts() {
         0 => String::new(),
-        _ => [include_str!("text/contacts.c"), include_str!("text/sticking.c")].concat(),
+        _ => [ROUNDING, include_str!("text/contacts.c"), include_str!("text/sticking.c")].concat(),
     }
 }
 
@@ -76,7 +78,8 @@ fn jumps(compiled: &Compiled) -> String {
         0 => &[include_str!("text/stepped_transitions.c")],
         _ => &[include_str!("text/modes.c"), include_str!("text/stops.c")],
     };
-    [samples, transitions, &steps.concat()].concat()
+    let rounding = if compiled.contacts() == 0 { ROUNDING } else { "" };
+    [rounding, samples, transitions, &steps.concat()].concat()
 }
 
 /// The functions that start and step a run. Clocks and stops have their own around them.

@@ -29,7 +29,7 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
     }
     for (int at = 0; at < count; at++) {
         const real pivot = rows[at][at];
-        is_pivot[at] = (double)pivot > 1e-10 * diagonal[at];
+        is_pivot[at] = (double)pivot > NAME_rounding(1e-10) * diagonal[at];
         for (int row = 0; is_pivot[at] && row < count; row++) {
             const real factor = rows[row][at] / pivot;
             for (int column = 0; row != at && column <= CAPS_ROWS; column++) {
@@ -55,7 +55,7 @@ static int NAME_least_wrong(const real *contacts, const int *set, const int *act
         if (!set[stop]) {
             continue;
         }
-        if (active[stop] && (double)x[stop] < -1e-12 * largest) {
+        if (active[stop] && (double)x[stop] < -NAME_rounding(1e-12) * largest) {
             return stop;
         }
         for (int by = 0; by < CAPS_ROWS; by++) {
@@ -63,7 +63,7 @@ static int NAME_least_wrong(const real *contacts, const int *set, const int *act
             rate = rate + term;
             size = size + fabs(term);
         }
-        if (rate < -1e-12 * size) {
+        if (rate < -NAME_rounding(1e-12) * size) {
             return stop;
         }
     }
@@ -81,7 +81,7 @@ static int NAME_exchanged(const real *contacts, const int *active, int by, const
     }
     NAME_solve_at_stops(contacts, others, column, shares);
     for (int stop = 0; stop < CAPS_ROWS; stop++) {
-        if (!bound[stop] && (double)shares[stop] > 1e-10
+        if (!bound[stop] && (double)shares[stop] > NAME_rounding(1e-10)
             && (first < 0
                 || (double)x[stop] / (double)shares[stop] < (double)x[first] / (double)shares[first])) {
             first = stop;

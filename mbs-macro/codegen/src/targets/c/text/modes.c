@@ -15,7 +15,7 @@ static double NAME_slope(const real *contacts, int row)
 /* How far a constraint may be off where its mode is entered. */
 static double NAME_allowed(double size, double slope)
 {
-    return 1e-6 * (1e-3 + size) * slope;
+    return NAME_rounding(1e-6) * (1e-3 + size) * slope;
 }
 
 /* Leads velocities to the constraints of the modes that hold. */
@@ -52,7 +52,7 @@ static int NAME_engage(struct NAME_run *run)
     }
     NAME_change_rates(contacts, impulses, after);
     for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
-        const double left = 1e-6 * (fabs((double)rates[row]) + NAME_slope(contacts, row) * fastest);
+        const double left = NAME_rounding(1e-6) * (fabs((double)rates[row]) + NAME_slope(contacts, row) * fastest);
         if (locked[row] && !(fabs((double)after[row]) <= left)) {
             run->where = NAME_memories[row];
             return CAPS_APART;

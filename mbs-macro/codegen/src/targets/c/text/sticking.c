@@ -86,7 +86,7 @@ static int NAME_loose(const int *set, const real *forces, const real *limits)
     for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         const double force = fabs((double)forces[row]), most = (double)limits[2 * (row - CAPS_STOPS) + 1];
         /* what has no largest force does not stick */
-        const double beyond = !(most > 0) ? HUGE_VAL : force > (1.0 + 1e-12) * most ? force / most : 0;
+        const double beyond = !(most > 0) ? HUGE_VAL : force > (1.0 + NAME_rounding(1e-12)) * most ? force / most : 0;
         if (set[row] && beyond > worst) {
             loose = row;
             worst = beyond;

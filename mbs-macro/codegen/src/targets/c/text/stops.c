@@ -137,8 +137,8 @@ static int NAME_find_impulses(const struct NAME_run *run, const real *contacts, 
                 size = size + fabs((double)NAME_mobility(contacts, stop, by) * (double)it->impulses[by]);
             }
             it->closed[stop] = it->closed[stop] || it->gaps[stop] <= 0;
-            closing[stop] = it->closed[stop] && (double)rates[stop] <= 1e-12 * size;
-            hit[stop] = closing[stop] && (double)rates[stop] < -(1e-12 * size);
+            closing[stop] = it->closed[stop] && (double)rates[stop] <= NAME_rounding(1e-12) * size;
+            hit[stop] = closing[stop] && (double)rates[stop] < -(NAME_rounding(1e-12) * size);
             is_hit = is_hit || hit[stop];
         }
         if (turn == 16 || !is_hit) {

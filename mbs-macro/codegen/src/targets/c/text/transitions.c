@@ -25,10 +25,10 @@ static int NAME_pass(struct NAME_run *run, int *passes)
             real *const seen = NAME_places(&run->inputs) + NAME_sides[of][0];
             const double side = NAME_sides[of][1], before = (double)*seen, now = (double)values[of];
             const double size = fabs(before) > fabs(now) ? fabs(before) : fabs(now);
-            const int is_at_limit = fabs(now) <= 1e-12 * fabs(before) && fabs(before) > 2e-30;
+            const int is_at_limit = fabs(now) <= NAME_rounding(1e-12) * fabs(before) && fabs(before) > 2e-30;
             /* what a mode keeps at its limit is off by the error of a step */
             const int has_held = side * before > 0;
-            const int holds = has_held ? side * now >= -(1e-6 * fabs(before)) : side * now > 0 || is_at_limit;
+            const int holds = has_held ? side * now >= -(NAME_rounding(1e-6) * fabs(before)) : side * now > 0 || is_at_limit;
             due[of] = side * before < 0 && holds;
             is_due = is_due || due[of];
             *seen = (real)(holds ? side * size : -side * size);
