@@ -17,9 +17,7 @@
 
 use crate::Real;
 use crate::equations::{At, Equations};
-
-/// At most so many contacts has a mechanism: stops, and behind them frictions that stick.
-pub(crate) const MOST_CONTACTS: usize = 16;
+pub(crate) use crate::info::MOST_CONTACTS;
 
 /// A number per stop.
 pub(crate) type Each<T> = [T; MOST_CONTACTS];
@@ -68,6 +66,8 @@ impl<T: Real> Gaps<T> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contacts<'a, T> {
     stops: usize,
+    /// The first constraint of a mode: these stand behind stops and frictions.
+    locks: usize,
     coordinates: usize,
     constraints: usize,
     values: &'a [T],
@@ -82,11 +82,12 @@ impl<'a, T: Real> Contacts<'a, T> {
     ) -> Option<R> {
         let info = equations.info();
         let (stops, coordinates) = (info.contacts(), info.coordinates.len());
+        let locks = info.watched_contacts();
         let constraints = info.constraints.len();
         let (mut what, mut result) = (Some(what), None);
         equations.contacts(t, q, &mut |values| {
             if let Some(what) = what.take() {
-                result = Some(what(Contacts { stops, coordinates, constraints, values }));
+                result = Some(what(Contacts { stops, locks, coordinates, constraints, values }));
             }
         });
         result
@@ -126,6 +127,13 @@ impl<'a, T: Real> Contacts<'a, T> {
         self.values.get(at).copied().unwrap_or_default()
     }
 
+    /// What that of its own rate would be without joints; where no mass tells, as it is.
+    fn free_mobility(&self, row: usize) -> f64 {
+        let at = self.stops * (self.each() + self.stops) + row;
+        let free = self.values.get(at).map_or(0.0, |free| free.to_f64());
+        if free.is_finite() && free > 0.0 { free } else { self.mobility(row, row).to_f64() }
+    }
+
     /// The pivot growth of the elimination.
     pub fn growth(&self) -> T {
         self.values.last().copied().unwrap_or(T::from_f64(f64::NAN))
@@ -135,7 +143,9 @@ impl<'a, T: Real> Contacts<'a, T> {
     pub fn solve(&self, set: u32, b: &Each<T>) -> Each<T> {
         let mut rows = [[T::default(); MOST_CONTACTS + 1]; MOST_CONTACTS];
         let (mut members, mut count) = ([0; MOST_CONTACTS], 0);
-        for stop in (0..self.stops).filter(|stop| has(set, *stop)) {
+        // modes hold before stops press, and these before friction holds, where they depend on each other
+        let locks = those(self.stops, |row| row >= self.locks && has(set, row)).count_ones() as usize;
+        for stop in (self.locks..self.stops).chain(0..self.locks).filter(|stop| has(set, *stop)) {
             if let Some(member) = members.get_mut(count) {
                 *member = stop;
                 count += 1;
@@ -151,7 +161,8 @@ impl<'a, T: Real> Contacts<'a, T> {
             }
         }
         let mut solution = [T::default(); MOST_CONTACTS];
-        let found = eliminate(&mut rows, count);
+        let free = core::array::from_fn(|at| members.get(at).map_or(0.0, |&row| self.free_mobility(row)));
+        let found = eliminate(&mut rows, [locks, count], &free);
         for (&stop, x) in members.iter().zip(found) {
             if let Some(to) = solution.get_mut(stop) {
                 *to = x;
@@ -234,23 +245,34 @@ impl<'a, T: Real> Contacts<'a, T> {
     }
 }
 
-/// Gauss's elimination of the first rows, symmetric and positive semidefinite, with their right sides behind them.
-fn eliminate<T: Real>(rows: &mut [[T; MOST_CONTACTS + 1]; MOST_CONTACTS], count: usize) -> Each<T> {
-    let diagonal: [f64; MOST_CONTACTS] =
-        core::array::from_fn(|at| rows.get(at).and_then(|row| row.get(at)).map_or(0.0, |d| d.to_f64()));
+/// Gauss's elimination of the first rows, symmetric and positive semidefinite, with their right sides behind them: of some
+/// in the order of their pivots, and of the others in which they stand. A pivot is rounding beside what W would be without
+/// joints, and beside what it was before the others.
+fn eliminate<T: Real>(
+    rows: &mut [[T; MOST_CONTACTS + 1]; MOST_CONTACTS],
+    [sorted, count]: [usize; 2],
+    free: &Each<f64>,
+) -> Each<T> {
     let entry = |rows: &[[T; MOST_CONTACTS + 1]; MOST_CONTACTS], row: usize, column: usize| {
         rows.get(row).and_then(|row| row.get(column)).copied().unwrap_or_default()
     };
-    let mut is_pivot = [false; MOST_CONTACTS];
-    for at in 0..count {
+    let diagonal: Each<f64> = core::array::from_fn(|at| entry(rows, at, at).to_f64());
+    let [mut is_pivot, mut is_done] = [[false; MOST_CONTACTS]; 2];
+    for turn in 0..count {
+        let is_left = |at: &usize| is_done.get(*at).is_some_and(|done| !done);
+        let ratio = |at: usize| entry(rows, at, at).to_f64() / free.get(at).copied().unwrap_or(1.0);
+        let largest =
+            (0..sorted).filter(is_left).reduce(|most, at| if ratio(at) > ratio(most) { at } else { most });
+        let at = largest.unwrap_or(turn);
         let pivot = entry(rows, at, at);
-        let least = share::<T>(DEPENDENT) * diagonal.get(at).copied().unwrap_or_default();
+        let [before, free] = [&diagonal, free].map(|of| of.get(at).copied().unwrap_or_default());
+        let least = (share::<T>(DEPENDENT) * before).max(OPERATIONS * T::EPSILON.to_f64() * free);
         let is_independent = pivot.to_f64() > least;
-        if let Some(is_pivot) = is_pivot.get_mut(at) {
-            *is_pivot = is_independent;
+        if let (Some(is_pivot), Some(is_done)) = (is_pivot.get_mut(at), is_done.get_mut(at)) {
+            (*is_pivot, *is_done) = (is_independent, true);
         }
         let Some(&above) = rows.get(at).filter(|_| is_independent) else { continue };
-        for (_, row) in rows.iter_mut().enumerate().filter(|(other, _)| *other != at).take(count) {
+        for (_, row) in rows.iter_mut().enumerate().take(count).filter(|(other, _)| *other != at) {
             let factor = row.get(at).copied().unwrap_or_default() / pivot;
             for (entry, above) in row.iter_mut().zip(above) {
                 *entry = *entry - factor * above;
@@ -292,8 +314,8 @@ mod tests {
     /// Responses that have W alone.
     fn solved<const N: usize>(w: [[f64; N]; N], b: [f64; N]) -> Option<(u32, [f64; N])> {
         let mut values: Vec<f64> = w.into_iter().flatten().collect();
-        values.push(0.0);
-        let contacts = Contacts { stops: N, coordinates: 0, constraints: 0, values: &values };
+        values.extend((0..N).map(|row| w[row][row]).chain([0.0]));
+        let contacts = Contacts { stops: N, locks: N, coordinates: 0, constraints: 0, values: &values };
         let mut all = [0.0; MOST_CONTACTS];
         all[..N].copy_from_slice(&b);
         let (active, x) = contacts.complementary((1 << N) - 1, 0, &all)?;

@@ -66,6 +66,8 @@ pub struct DeclaredLock {
     pub mode: usize,
     /// That of the memory of its multiplier while it holds.
     pub held: usize,
+    /// True of an equation between rates, which restricts no position.
+    pub is_rate: bool,
     /// Φ, or Φ̇ of an equation between rates, unless it is too long to read.
     pub formula: &'static str,
 }

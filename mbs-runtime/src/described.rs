@@ -1,10 +1,10 @@
 //! The outputs, energies, texts and pictures of a mechanism, apart from its equations.
 
 use crate::differentiable::Differentiable;
-use crate::equations::{At, Equations, read, write};
+use crate::equations::{Arrays, At, Equations, read, write};
 use crate::pressing::press;
 use crate::sticking::hold;
-use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch, vectors};
+use crate::{Components, Derivation, Mechanism, Reactions, Real, Sketch, State, vectors};
 
 /// The outputs, energies, texts and pictures of a mechanism, on slices as [`Equations`]. They are
 /// apart from these, so that a program that only integrates does not carry texts and pictures.
@@ -39,6 +39,30 @@ pub trait Described<T: Real>: Equations<T> {
     }
 }
 
+/// The declared outputs, with the forces of what sticks and of modes in this state: memories may have been set behind a step.
+#[inline(always)]
+pub(crate) fn measured<M: Mechanism>(
+    mechanism: &M,
+    at: &State<M::Coordinates>,
+    inputs: &M::Inputs,
+    reactions: &Reactions<M::Coordinates, M::Constraints>,
+) -> M::Outputs {
+    if M::INFO.holds() {
+        return mechanism.outputs(at, &held(mechanism, at, inputs), reactions);
+    }
+    mechanism.outputs(at, inputs, reactions)
+}
+
+/// Inputs with those forces.
+#[inline(never)]
+fn held<M: Mechanism>(mechanism: &M, at: &State<M::Coordinates>, inputs: &M::Inputs) -> M::Inputs {
+    let (state, mut own) = (Arrays::of(at), inputs.into_array());
+    let mut a = M::Coordinates::splat(M::Real::default()).into_array();
+    let mut lambda = M::Constraints::splat(M::Real::default()).into_array();
+    hold(mechanism, state.at(), own.as_mut(), [a.as_mut(), lambda.as_mut()]);
+    Components::from_array(own)
+}
+
 impl<M: Mechanism> Described<M::Real> for M {
     fn reactions(
         &self,
@@ -64,15 +88,8 @@ impl<M: Mechanism> Described<M::Real> for M {
         let growth = M::Real::default();
         let (acceleration, multipliers): (M::Coordinates, M::Constraints) =
             (read(acceleration), read(multipliers));
-        let mut inputs: M::Inputs = read(inputs);
-        if M::INFO.holds() {
-            let mut own = inputs.into_array();
-            let (mut a, mut lambda) = (acceleration.into_array(), multipliers.into_array());
-            hold(self, at, own.as_mut(), [a.as_mut(), lambda.as_mut()]);
-            inputs = Components::from_array(own);
-        }
         let reactions = Reactions { acceleration, multipliers, growth };
-        write(Mechanism::outputs(self, &at.state(), &inputs, &reactions), outputs);
+        write(measured(self, &at.state(), &read(inputs), &reactions), outputs);
     }
 
     fn events(&self, at: At<'_, M::Real>, inputs: &[M::Real], values: &mut [M::Real]) {

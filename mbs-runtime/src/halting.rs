@@ -13,11 +13,11 @@
 //! stuck in a whole step is where it was before: positions are led back to it the shortest way by masses. See
 //! [`moreau`](crate::moreau).
 
+use crate::changes::Changes;
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
 use crate::equations::{At, Equations};
+use crate::locks::{locked, placed};
 use crate::mechanism::growth_limit;
-use crate::modes::locked;
-use crate::moreau::Changes;
 use crate::pressing::{held, pressed};
 use crate::sticking::{Limits, all_frictions, direction, frictions, hold, holding, loose, set, unanswered};
 use crate::{Error, Info, Real, vectors};
@@ -62,6 +62,7 @@ pub(crate) fn halt<T: Real>(
     let crossed = crossing(info, &rates, memory);
     let has_acted = (pushed & friction) | crossed | locked != 0;
     if has_acted {
+        let placed = placed(info, locked);
         // stops that are rested on, and constraints of modes, hold meanwhile
         let resting = held(equations, inputs) & !friction;
         let at = At { t, q, v };
@@ -76,7 +77,8 @@ pub(crate) fn halt<T: Real>(
             let (halting, impulses) =
                 Halting::answered(info, &contacts, (h, sets), [&was.rate, &rates], (&limits, memory))?;
             let moved = core::array::from_fn(|row| of(&impulses, row) * of(&halting.shift, row));
-            let back = halting.back(&contacts, (sets, locked), [&was.gap, &now.gap], &moved);
+            let back =
+                halting.back(&contacts, (sets, [placed, locked & !placed]), [&was.gap, &now.gap], &moved);
             contacts.add(&impulses, changes.v);
             contacts.add(&moved, changes.q);
             contacts.add(&back, changes.q);
@@ -173,7 +175,7 @@ impl<T: Real> Halting<T> {
     fn back(
         &self,
         contacts: &Contacts<'_, T>,
-        ([stuck, resting], locked): ([u32; 2], u32),
+        ([stuck, resting], [locked, rates]): ([u32; 2], [u32; 2]),
         [was, now]: [&Each<T>; 2],
         moved: &Each<T>,
     ) -> Each<T> {
@@ -190,7 +192,7 @@ impl<T: Real> Halting<T> {
             };
             slipped + of(&changes, row)
         });
-        contacts.solve(held | resting, &slipped)
+        contacts.solve(held | resting & !rates, &slipped)
     }
 
     /// The impulses of frictions and at stops that are rested on; the worst one that needs more than it can have slides on.

@@ -1,8 +1,9 @@
 //! The description of a mechanism for tools: names, units, equations, counts.
 
-use crate::Error;
-use crate::contact::MOST_CONTACTS;
 use crate::declared::{DeclaredEvent, DeclaredFriction, DeclaredStop, Modes};
+
+/// At most so many contacts has a mechanism: stops, behind them frictions that stick, and constraints of modes.
+pub(crate) const MOST_CONTACTS: usize = 16;
 
 /// At most so many events are watched at once.
 pub const MOST_EVENTS: usize = 64;
@@ -273,14 +274,6 @@ impl Info {
         self.inputs.get(self.free_inputs().len()..).unwrap_or_default()
     }
 
-    /// Refuses equations between rates, for a method.
-    pub(crate) fn refuse_rates(&self, method: &'static str) -> Result<(), Error> {
-        match self.constraints.iter().find(|row| row.is_rate) {
-            Some(row) => Err(Error::Rates { method, constraint: row.name }),
-            None => Ok(()),
-        }
-    }
-
     /// The name of an event by its index: that of a declared one, or of a stop, which count down from the last of
     /// [`MOST_EVENTS`](crate::MOST_EVENTS), behind them of a friction that sticks, or the condition of a transition.
     pub fn event_name(&self, index: usize) -> Option<&'static str> {
@@ -294,18 +287,6 @@ impl Info {
         match row.checked_sub(self.stops.len()) {
             Some(friction) => self.frictions.get(friction).map(|friction| friction.name),
             None => self.stops.get(row).map(|stop| stop.name),
-        }
-    }
-
-    /// Refuses friction that sticks, and modes.
-    ///
-    /// # Errors
-    /// [`Error::Sticks`], [`Error::Modes`].
-    pub fn refuse_sticking(&self, what: &'static str) -> Result<(), Error> {
-        self.refuse_modes(what)?;
-        match self.frictions.first() {
-            Some(friction) => Err(Error::Sticks { what, friction: friction.name }),
-            None => Ok(()),
         }
     }
 
@@ -328,41 +309,6 @@ impl Info {
     /// True if velocities or memories may jump at the end of a step.
     pub const fn jumps(&self) -> bool {
         self.contacts() + self.modes.transitions.len() > 0
-    }
-
-    /// Refuses constraints that come and go.
-    ///
-    /// # Errors
-    /// [`Error::Modes`].
-    pub fn refuse_modes(&self, what: &'static str) -> Result<(), Error> {
-        match (self.modes.modes.first(), self.modes.transitions.first()) {
-            (Some(mode), _) => Err(Error::Modes { what, mode: mode.name }),
-            (None, Some(transition)) => Err(Error::Modes { what, mode: transition.condition }),
-            (None, None) => Ok(()),
-        }
-    }
-
-    /// Refuses stops and friction that sticks, for what sees neither impact nor sticking.
-    ///
-    /// # Errors
-    /// [`Error::Stops`], [`Error::Sticks`], [`Error::Modes`].
-    pub fn refuse_stops(&self, what: &'static str) -> Result<(), Error> {
-        self.refuse_sticking(what)?;
-        match self.stops.first() {
-            Some(stop) => Err(Error::Stops { what, stop: stop.name }),
-            None => Ok(()),
-        }
-    }
-
-    /// Refuses memories that clocks set, for what knows none.
-    ///
-    /// # Errors
-    /// [`Error::Clocks`].
-    pub fn refuse_clocks(&self, what: &'static str) -> Result<(), Error> {
-        match self.memories().first().filter(|_| self.sampling.clocks > 0) {
-            Some(memory) => Err(Error::Clocks { what, memory: memory.name }),
-            None => Ok(()),
-        }
     }
 
     /// The name of a constraint; empty where there is none.

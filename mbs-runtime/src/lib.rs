@@ -115,6 +115,7 @@ mod adaptive;
 #[doc(hidden)]
 pub mod arrays;
 mod baumgarte;
+mod changes;
 mod components;
 mod constant;
 mod contact;
@@ -142,6 +143,7 @@ pub mod language {}
 pub mod methods {}
 mod kinematics;
 pub mod lanes;
+mod locks;
 mod mechanism;
 mod method;
 mod modes;
@@ -152,6 +154,7 @@ mod partials;
 mod pressing;
 mod reach;
 mod real;
+mod refusals;
 pub mod reverse;
 mod room;
 mod run;
@@ -165,6 +168,7 @@ pub mod start;
 mod sticking;
 mod straight;
 mod system;
+mod touching;
 mod two;
 mod vectors;
 mod view;

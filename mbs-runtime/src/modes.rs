@@ -14,11 +14,11 @@
 //! that also what jumps is seen; and the largest difference of the two sides of the condition so far, of which a small share
 //! is rounding. What stays at its limit holds.
 
-use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share, those};
-use crate::declared::DeclaredLock;
+use crate::changes::Changes;
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share};
 use crate::equations::{At, Equations};
+use crate::locks::{all_stops, locked, locks, placed};
 use crate::mechanism::growth_limit;
-use crate::moreau::Changes;
 use crate::pressing::held;
 use crate::sticking::unanswered;
 use crate::{Error, Info, Real, vectors};
@@ -37,37 +37,12 @@ const LEAST_SIZE: f64 = 1e-3;
 const ROUNDING: f64 = 1e-12;
 /// One that holds stops to hold where it is off by this share: a mode keeps it at its limit with an error of a step.
 pub(crate) const OFF: f64 = 1e-6;
+/// A speed that moves coordinates by this share of their size in a step is none.
+const STILL: f64 = 1e-9;
 /// A value that was 0 from the start on has this size.
 const NONE: f64 = 1e-30;
 /// Impulses leave this share of a rate where its constraint depends on others.
 const LEFT: f64 = 1e-6;
-
-/// The constraints of modes by their rows among the contacts.
-pub(crate) fn locks(info: &Info) -> impl Iterator<Item = (usize, &'static DeclaredLock)> {
-    let first = info.watched_contacts();
-    info.modes.locks.iter().enumerate().map(move |(at, lock)| (first + at, lock))
-}
-
-/// Those of the modes that hold.
-pub(crate) fn locked<T: Real>(info: &Info, inputs: &[T]) -> u32 {
-    let holds = |lock: &DeclaredLock| inputs.get(lock.mode).is_some_and(|mode| mode.to_f64() > 0.5);
-    locks(info).filter(|(_, lock)| holds(lock)).fold(0, |set, (row, _)| set | bit(row))
-}
-
-/// The set of all stops.
-pub(crate) fn all_stops(info: &Info) -> u32 {
-    those(info.stops.len(), |_| true)
-}
-
-/// Sets the memories of the multipliers of the constraints that hold: a force x along ∂g/∂q is −λ.
-pub(crate) fn note_multipliers<T: Real>(info: &Info, inputs: &mut [T], held: u32, forces: &Each<T>) {
-    for (row, lock) in locks(info) {
-        let force = forces.get(row).copied().filter(|_| has(held, row)).unwrap_or_default();
-        if let Some(to) = inputs.get_mut(lock.held) {
-            *to = -force;
-        }
-    }
-}
 
 /// The first constraint of a set that is off by more than is allowed.
 ///
@@ -88,9 +63,34 @@ pub(crate) fn are_met(
     }
 }
 
+/// The first constraint of a set whose rate is more than what is left of it.
+///
+/// # Errors
+/// [`Error::Contradiction`].
+pub(crate) fn do_not_contradict(
+    info: &Info,
+    t: f64,
+    set: u32,
+    rate: impl Fn(usize) -> f64,
+    left: impl Fn(usize) -> f64,
+) -> Result<(), Error> {
+    let met = are_met(info, t, set, rate, left);
+    met.map_err(|error| match error {
+        Error::Apart { t, constraint, by } => Error::Contradiction { t, constraint, rate: by },
+        other => other,
+    })
+}
+
 /// How far constraints may be off where their mode is entered, given Σ |∂g/∂q|.
 pub(crate) fn allowed<T: Real>(size: f64, slope: f64) -> f64 {
     share::<T>(CLOSED) * (LEAST_SIZE + size) * slope
+}
+
+/// How much of a constraint, or its rate, is that of joints which are off: twice Σ |μ Φ|, μ the multipliers of a unit impulse along
+/// it.
+fn of_joints<T: Real>(contacts: &Contacts<'_, T>, row: usize, off: &[T]) -> f64 {
+    let terms = contacts.reactions(row).iter().zip(off);
+    2.0 * terms.map(|(reaction, off)| (*reaction * *off).to_f64().abs()).sum::<f64>()
 }
 
 /// How much may be left behind impulses of rates up to one: more is left where constraints depend on others.
@@ -118,9 +118,12 @@ pub(crate) fn engage<T: Real>(
     let fastest = vectors::largest(info.of_bodies(v)).1.to_f64();
     vectors::fill(changes.v, T::ZERO);
     let resting = held(equations, inputs) & all_stops(info);
+    let Changes { rows, v: of_v, .. } = changes;
     let answered = Contacts::at(equations, (t, q), |contacts| {
         let way = |row: usize| STEPS * h.to_f64() * number(&gaps.rate, row).abs();
-        let allowed = |row: usize| allowed::<T>(size, contacts.slope(row)) + way(row);
+        equations.phi(t, q, rows);
+        let allowed =
+            |row: usize| allowed::<T>(size, contacts.slope(row)) + way(row) + of_joints(&contacts, row, rows);
         are_met(info, t.to_f64(), locked, |row| number(&gaps.gap, row), allowed)?;
         // written so that a NaN is no growth
         let has_growth = contacts.growth() < growth_limit();
@@ -128,13 +131,20 @@ pub(crate) fn engage<T: Real>(
         let (_, impulses) = solved.ok_or_else(|| unanswered(info, t.to_f64(), locked))?;
         let left = contacts.rates(&impulses);
         let after = |row: usize| number(&gaps.rate, row) + number(&left, row);
-        let left = |row: usize| left_of::<T>(number(&gaps.rate, row).abs() + contacts.slope(row) * fastest);
-        are_met(info, t.to_f64(), locked, after, left)?;
-        contacts.add(&impulses, changes.v);
+        // and what moves no position by more than rounding
+        let slowest = STILL * (LEAST_SIZE + size) / h.to_f64();
+        equations.phi_dot(At { t, q, v }, rows);
+        let left = |row: usize| {
+            left_of::<T>(number(&gaps.rate, row).abs() + contacts.slope(row) * fastest)
+                + contacts.slope(row) * slowest
+                + of_joints(&contacts, row, rows)
+        };
+        do_not_contradict(info, t.to_f64(), locked, after, left)?;
+        contacts.add(&impulses, of_v);
         Ok(())
     });
     answered.unwrap_or(Ok(()))?;
-    vectors::zip_map(v, changes.v, |v, change| v + change);
+    vectors::zip_map(v, of_v, |v, change| v + change);
     Ok(())
 }
 
@@ -151,7 +161,7 @@ pub(crate) fn close<T: Real>(
     if locked == 0 {
         return;
     }
-    let set = locked | held(equations, inputs) & all_stops(info);
+    let set = placed(info, locked) | held(equations, inputs) & all_stops(info);
     for _ in 0..CLOSINGS {
         let gap = Gaps::of(equations, At { t, q, v }, changes.still).gap;
         vectors::fill(changes.q, T::ZERO);
@@ -224,7 +234,7 @@ pub(crate) fn note<T: Real>(info: &Info, seen: &Each<T>, inputs: &mut [T]) {
 /// of those whose conditions do by that. Gives them.
 ///
 /// # Errors
-/// [`Error::EndlessEvents`] where they follow each other without an end.
+/// [`Error::Endless`] where they follow each other without an end.
 pub(crate) fn pass<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
@@ -246,8 +256,8 @@ pub(crate) fn pass<T: Real>(
         }
     }
     let first = info.modes.transitions.get(all.trailing_zeros() as usize);
-    let name = first.map_or("", |transition| transition.condition);
-    Err(Error::EndlessEvents { t: at.t.to_f64(), name, index: 0 })
+    let condition = first.map_or("", |transition| transition.condition);
+    Err(Error::Endless { t: at.t.to_f64(), condition })
 }
 
 /// The value of every transition.

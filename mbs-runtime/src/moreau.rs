@@ -20,62 +20,22 @@
 //! J. J. Moreau (1988), Unilateral contact and dry friction in finite freedom dynamics; M. Jean, Comput. Methods Appl. Mech.
 //! Eng. 177 (1999) 235; V. Acary, ibid. 256 (2013) 224, for the correction of positions.
 
+pub use crate::changes::{Changes, Vectors};
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, has, number, share, those};
 use crate::equations::{At, Equations};
 use crate::halting::halt;
+use crate::locks::{all_stops, locked, placed};
 use crate::mechanism::growth_limit;
-use crate::modes::{self, all_stops, are_met, close, engage, locked, look, pass};
+use crate::modes::{self, close, due, engage, pass};
 use crate::pressing::held;
-use crate::sticking::{Held, Undecided, all_frictions, decide, frictions, hold, set};
+use crate::sticking::{Held, Undecided, all_frictions, decide, hold};
+pub use crate::touching::begin;
 use crate::{Error, Real, vectors};
 
-/// A start is behind a stop by more than this share of the size of the coordinates.
-const BEHIND: f64 = 1e-9;
-/// The least size in m or rad: at the origin nothing else tells what is rounding.
-const LEAST_SIZE: f64 = 1e-3;
 /// So many impacts follow each other within a step. What closes then is rested on.
 const IN_SEQUENCE: usize = 16;
 /// A rate is 0 below this share of the terms of which it is made.
 const ROUNDING: f64 = 1e-12;
-/// Friction does not slide at a start below this share of the largest speed that the kinetic energy lets it have.
-const STILL: f64 = 1e-9;
-
-/// Vectors to compute with.
-pub struct Vectors<V, C> {
-    still: V,
-    q: V,
-    v: V,
-    rows: C,
-}
-
-impl<V: Clone, C> Vectors<V, C> {
-    /// Of a zero per coordinate and a zero per constraint.
-    pub fn new(still: V, rows: C) -> Self {
-        Self { q: still.clone(), v: still.clone(), still, rows }
-    }
-
-    /// The vectors as slices.
-    pub fn changes<T>(&mut self) -> Changes<'_, T>
-    where
-        V: AsRef<[T]> + AsMut<[T]>,
-        C: AsMut<[T]>,
-    {
-        let Self { still, q, v, rows } = self;
-        Changes { still: (*still).as_ref(), rows: rows.as_mut(), q: q.as_mut(), v: v.as_mut() }
-    }
-}
-
-/// Vectors to compute with, as slices.
-pub struct Changes<'a, T> {
-    /// Zeros.
-    pub still: &'a [T],
-    /// A zero per constraint, at first.
-    pub rows: &'a mut [T],
-    /// Changes of positions.
-    pub q: &'a mut [T],
-    /// Changes of velocities.
-    pub v: &'a mut [T],
-}
 
 /// Adds half of the impulses of rest over a step of `h` seconds to the velocities at its start, and sets the memories of
 /// frictions that break loose. Gives the stops that push and the frictions that stick.
@@ -119,10 +79,12 @@ pub fn strike<T: Real>(
 ) -> Result<bool, Error> {
     let Changes { still, rows, q: of_q, v: of_v } = changes;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
+    // a stop may throw back what a condition has let pass
+    let (found, _) = due(equations, At { t, q, v }, inputs, modes::OFF);
     let is_struck = strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     let has_halted = halt(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
-    let passes = pass(equations, At { t, q, v }, inputs, (0, modes::OFF))? != 0;
+    let passes = pass(equations, At { t, q, v }, inputs, (found, modes::OFF))? != 0;
     if passes {
         // with the velocities of before the way of a step is known, and with those behind where they lead
         for is_first in [true, false] {
@@ -163,10 +125,13 @@ fn strike_stops<T: Real>(
     let rate_before = Gaps::of(equations, At { t, q, v: changes.v }, changes.still).rate;
     let ends = Ends { gap: [gap_before, now.gap], rate: [rate_before, now.rate] };
     let restitutions = restitutions(equations);
+    let size = vectors::largest(equations.info().of_bodies(q)).1.to_f64();
     let answered = Contacts::at(equations, (t, q), |contacts| {
-        let striking = Striking::new((&contacts, count, locked), h, &ends, &restitutions, pushed);
+        let allowed = core::array::from_fn(|row| modes::allowed::<T>(size, contacts.slope(row)));
+        let from = (&contacts, count, locked);
+        let striking = Striking::new(from, h, (&ends, &allowed), &restitutions, pushed);
         let answer = striking.answer(closed)?;
-        let shifts = contacts.solve(answer.held | locked, &answer.gap);
+        let shifts = contacts.solve(answer.held | placed(equations.info(), locked), &answer.gap);
         vectors::fill(changes.q, T::ZERO);
         vectors::fill(changes.v, T::ZERO);
         contacts.add(&zip(&answer.moved, &shifts, |moved, shift| moved + shift), changes.q);
@@ -197,6 +162,8 @@ struct Striking<'a, T> {
     locked: u32,
     restitutions: &'a Each<T>,
     ends: &'a Ends<T>,
+    /// How far gaps may be behind their stops where modes lead them.
+    allowed: &'a Each<f64>,
     /// ġ − ġ₀
     change: Each<T>,
     /// The rest of the step behind the closing of a gap: 1 − s.
@@ -223,7 +190,7 @@ impl<'a, T: Real> Striking<'a, T> {
     fn new(
         (contacts, count, locked): (&'a Contacts<'a, T>, usize, u32),
         h: T,
-        ends: &'a Ends<T>,
+        (ends, allowed): (&'a Ends<T>, &'a Each<f64>),
         restitutions: &'a Each<T>,
         pushed: u32,
     ) -> Self {
@@ -238,7 +205,7 @@ impl<'a, T: Real> Striking<'a, T> {
             core::array::from_fn(|row| if has(pushed | locked, row) { T::ZERO } else { of(&rest, row) * h });
         let [before, now] = &ends.rate;
         let change = zip(now, before, |now, before| now - before);
-        Self { contacts, count, locked, restitutions, ends, change, rest, shift }
+        Self { contacts, count, locked, restitutions, ends, allowed, change, rest, shift }
     }
 
     /// The impulses at the stops that are closed, or that impulses close, one impact after the other; nothing where there
@@ -265,7 +232,8 @@ impl<'a, T: Real> Striking<'a, T> {
                     those(MOST_CONTACTS, |stop| has(closing & held, stop) && number(&impulses, stop) > 0.0);
                 return Some(Answer { held, impulses, moved, gap, is_impact });
             }
-            let taken = taken(contacts, (closed, self.locked), &self.change)?;
+            let taken = taken(contacts, (closed, self.locked), &self.change)
+                .or_else(|| (self.locked != 0).then_some([T::ZERO; MOST_CONTACTS]))?;
             let approach = if turn == 0 { self.approach() } else { rate };
             let thrown = self.rebounds(&approach);
             let is_last = turn + 1 == IN_SEQUENCE;
@@ -281,10 +249,22 @@ impl<'a, T: Real> Striking<'a, T> {
                 let target = if is_still { T::ZERO } else { of(&thrown, stop) + later };
                 of(&rate, stop) - if target.to_f64() > 0.0 { target } else { T::ZERO }
             });
-            let (_, more) = contacts.complementary(closing | self.locked, self.locked, &short)?;
+            // a stop whose gap a mode keeps throws nothing back
+            let answers = |b| contacts.complementary(closing | self.locked, self.locked, b);
+            let (_, more) = answers(&short)
+                .or_else(|| answers(&rate).filter(|_| self.locked != 0))
+                .or_else(|| self.led_by_modes(closing, &rate))?;
             impulses = zip(&impulses, &more, |impulse, more| impulse + more);
         }
         None
+    }
+
+    /// The impulses of modes alone, where their constraints and drives lead to what is closed: a stop gives none while it is
+    /// behind its gap by no more than a mode may be off.
+    fn led_by_modes(&self, closing: u32, rate: &Each<T>) -> Option<(u32, Each<T>)> {
+        let is_deep = |stop: usize| number(&self.ends.gap[1], stop) < -number(self.allowed, stop);
+        let is_led = self.locked != 0 && !(0..self.count).any(|stop| has(closing, stop) && is_deep(stop));
+        is_led.then(|| (self.locked, self.contacts.solve(self.locked, rate)))
     }
 
     /// The rates with which gaps close, ġ_s.
@@ -311,71 +291,8 @@ impl<'a, T: Real> Striking<'a, T> {
     }
 }
 
-/// Sets the memories of the stops that a start rests on, and of the frictions that stick there.
-///
-/// # Errors
-/// [`Error::Behind`], [`Error::Impact`], [`Error::Jammed`].
-pub fn begin<T: Real>(
-    equations: &dyn Equations<T>,
-    (h, changes): (T, Changes<'_, T>),
-    at: At<'_, T>,
-    inputs: &mut [T],
-) -> Result<(), Error> {
-    let info = equations.info();
-    let count = info.stops.len();
-    look(equations, at, inputs);
-    let locked = locked(info, inputs);
-    let still = slide(equations, at, changes.still, inputs);
-    equations.free_reactions(at, inputs, changes.q, changes.rows);
-    let gaps = Gaps::of(equations, at, changes.q);
-    let size = BEHIND * (LEAST_SIZE + vectors::largest(info.of_bodies(at.q)).1.to_f64());
-    let thrown = rebounds(&restitutions(equations), &gaps.rate);
-    let settled = Contacts::at(equations, (at.t, at.q), |contacts| {
-        let allowed = |stop: usize| size * contacts.slope(stop);
-        if let Some(stop) = (0..count).find(|&stop| number(&gaps.gap, stop) < -allowed(stop)) {
-            let name = info.stops.get(stop).map_or("", |stop| stop.name);
-            return Err(Error::Behind { t: at.t.to_f64(), stop: name, gap: number(&gaps.gap, stop) });
-        }
-        let closed = those(count, |stop| number(&gaps.gap, stop) <= allowed(stop));
-        let met = |row: usize| modes::allowed::<T>(size / BEHIND, contacts.slope(row));
-        are_met(info, at.t.to_f64(), locked, |row| number(&gaps.gap, row), met)?;
-        let taken =
-            taken(&contacts, (closed, locked), &gaps.acceleration.map(|acceleration| h * acceleration));
-        let taken = taken.ok_or_else(|| impact(equations, at.t, closed))?;
-        Ok(those(count, |stop| {
-            let taken = number(&taken, stop);
-            has(closed, stop) && number(&gaps.rate, stop) <= taken && number(&thrown, stop) <= taken
-        }))
-    });
-    let undecided = Undecided { resting: settled.transpose()?.unwrap_or(0), still, breaking: 0 };
-    let Held { forces, .. } = decide(equations, at, inputs, undecided, [changes.q, changes.rows])?;
-    let held = those(count, |stop| number(&forces, stop) > 0.0);
-    note(equations, held, &[T::ZERO; MOST_CONTACTS], inputs);
-    Ok(())
-}
-
-/// Sets the directions of the frictions that move; those that do not.
-fn slide<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, still: &[T], inputs: &mut [T]) -> u32 {
-    let info = equations.info();
-    let rates = Gaps::of(equations, at, still).rate;
-    let energy = equations.kinetic_energy(at).to_f64().max(0.0);
-    let own = Contacts::at(equations, (at.t, at.q), |contacts| {
-        core::array::from_fn(|row| contacts.mobility(row, row).to_f64().max(0.0))
-    });
-    let own: Each<f64> = own.unwrap_or([0.0; MOST_CONTACTS]);
-    let is_still = |row: usize| {
-        let fastest = Real::sqrt(2.0 * energy * own.get(row).copied().unwrap_or(0.0));
-        number(&rates, row).abs() <= STILL * fastest
-    };
-    for (row, _) in frictions(info).filter(|(row, _)| !is_still(*row)) {
-        let direction = if number(&rates, row) > 0.0 { 1.0 } else { -1.0 };
-        set(info, inputs, row, (direction, T::ZERO));
-    }
-    those(MOST_CONTACTS, |row| has(all_frictions(info), row) && is_still(row))
-}
-
 /// The change of the rate of each gap in a step by the force at its own stop; `change` is that of all rates without stops.
-fn taken<T: Real>(
+pub(crate) fn taken<T: Real>(
     contacts: &Contacts<'_, T>,
     (closed, locked): (u32, u32),
     change: &Each<T>,
@@ -385,7 +302,7 @@ fn taken<T: Real>(
 }
 
 /// e of every stop.
-fn restitutions<T: Real>(equations: &dyn Equations<T>) -> Each<T> {
+pub(crate) fn restitutions<T: Real>(equations: &dyn Equations<T>) -> Each<T> {
     let mut laws = [T::ZERO; 2 * MOST_CONTACTS];
     if let Some(laws) = laws.get_mut(..2 * equations.info().stops.len()) {
         equations.stop_laws(laws);
@@ -394,7 +311,7 @@ fn restitutions<T: Real>(equations: &dyn Equations<T>) -> Each<T> {
 }
 
 /// The rates −e ġ with which gaps open again that close with the rates ġ.
-fn rebounds<T: Real>(restitutions: &Each<T>, rates: &Each<T>) -> Each<T> {
+pub(crate) fn rebounds<T: Real>(restitutions: &Each<T>, rates: &Each<T>) -> Each<T> {
     zip(
         restitutions,
         rates,
@@ -403,7 +320,7 @@ fn rebounds<T: Real>(restitutions: &Each<T>, rates: &Each<T>) -> Each<T> {
 }
 
 /// Sets the memories of all stops: those that are rested on, and what impulses add up to.
-fn note<T: Real>(equations: &dyn Equations<T>, held: u32, impulses: &Each<T>, inputs: &mut [T]) {
+pub(crate) fn note<T: Real>(equations: &dyn Equations<T>, held: u32, impulses: &Each<T>, inputs: &mut [T]) {
     for (at, stop) in equations.info().stops.iter().enumerate() {
         if let Some(memory) = inputs.get_mut(stop.memory) {
             *memory = T::from_f64(if has(held, at) { 1.0 } else { 0.0 });
@@ -414,7 +331,7 @@ fn note<T: Real>(equations: &dyn Equations<T>, held: u32, impulses: &Each<T>, in
     }
 }
 
-fn impact<T: Real>(equations: &dyn Equations<T>, t: T, closed: u32) -> Error {
+pub(crate) fn impact<T: Real>(equations: &dyn Equations<T>, t: T, closed: u32) -> Error {
     let stop = equations.info().stops.get(closed.trailing_zeros() as usize);
     Error::Impact { t: t.to_f64(), stop: stop.map_or("", |stop| stop.name) }
 }

@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_CONTACTS, bit, share, those};
 use crate::equations::{At, Equations};
-use crate::modes::locked;
+use crate::locks::locked;
 use crate::sticking::frictions;
 
 /// The stops that are rested on, the frictions that stick, and the constraints of the modes that hold.

@@ -12,9 +12,9 @@
 //! then move against its direction sticks after all. One that has no hold, as on a slider at its dead centre, goes on in the
 //! direction of s̈. With the forces at stops that are rested on this is one problem of few rows.
 
-use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share, those};
 use crate::equations::{At, Equations};
-use crate::modes::{all_stops, locked, locks, note_multipliers};
+use crate::locks::{all_stops, locked, locks, note_multipliers};
 use crate::pressing::{held, pressed};
 use crate::{Error, Info, Real, vectors};
 
@@ -230,7 +230,12 @@ pub(crate) fn decide<T: Real>(
             set(info, inputs, row, (0.0, force));
         }
         note_multipliers(info, inputs, found.held, &found.forces);
-        return Ok(Held { held: found.held, forces: found.forces });
+        // what a mode pulls away leaves its stop
+        let leaves = |stop: usize| {
+            number(&found.forces, stop) <= 0.0 && number(&found.accelerations, stop) > found.none
+        };
+        let left = those(info.stops.len(), leaves);
+        return Ok(Held { held: found.held & !left, forces: found.forces });
     }
     Err(unanswered(info, at.t.to_f64(), still))
 }
@@ -239,7 +244,7 @@ pub(crate) fn decide<T: Real>(
 pub(crate) fn unanswered(info: &Info, t: f64, set: u32) -> Error {
     let row = set.trailing_zeros() as usize;
     if let Some((_, lock)) = locks(info).find(|(of, _)| *of == row) {
-        return Error::Apart { t, constraint: lock.name, by: f64::NAN };
+        return Error::Contradiction { t, constraint: lock.name, rate: f64::NAN };
     }
     match row.checked_sub(info.stops.len()).and_then(|at| info.frictions.get(at)) {
         Some(friction) => Error::Jammed { t, friction: friction.name },

@@ -31,7 +31,7 @@ mechanism! {
         /// Inertia of rolls and motor.
         param inertia = 20 [kg*m^2] where inertia > 0;
         /// Torque of the motor at rest.
-        param stall = 2500 [N*m] where stall > 0;
+        param stall = 2500 [N*m] where stall >= 0;
         /// Speed of the motor without a load.
         param no_load = 100 [rpm] where no_load > 0;
         /// Height at which the rolls open.

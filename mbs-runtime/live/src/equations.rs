@@ -150,7 +150,7 @@ impl<T: Real> Equations<T> for Live<T> {
         let info = self.declared_info();
         let (stops, each) = (info.contacts(), 2 * info.coordinates.len() + info.constraints.len());
         if stops > 0 {
-            let mut values = vec![T::from_f64(f64::NAN); stops * (each + stops) + 1];
+            let mut values = vec![T::from_f64(f64::NAN); stops * (each + stops + 1) + 1];
             self.call(FunctionId::Contacts, &position(t, q), [&mut values]);
             what(&values);
         }

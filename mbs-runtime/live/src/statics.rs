@@ -120,7 +120,7 @@ fn modes(compiled: &Compiled) -> Modes {
     let mode = |it: &compiled::Mode| DeclaredMode { name: text(&it.name), memory: it.memory };
     let lock = |it: &compiled::Lock| {
         let (name, formula) = (text(&it.name), text(&it.formula));
-        DeclaredLock { name, mode: it.mode, held: it.held, formula }
+        DeclaredLock { name, mode: it.mode, held: it.held, is_rate: it.is_rate, formula }
     };
     let transition = |it: &compiled::Transition| {
         let compiled::Transition { text: condition, is_rising, is_strict, memory } = it;

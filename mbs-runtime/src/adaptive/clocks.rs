@@ -7,7 +7,6 @@ use super::events::{Happened, MOST_EVENTS, Watched};
 use super::gaps::bits;
 use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::Error;
-use crate::equations::At;
 use crate::samples::{is_sample, next_sample, sample_at};
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {

@@ -4,7 +4,8 @@ use super::dynamics::Dynamics;
 use super::gaps::Stopping;
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, those};
 use crate::equations::At;
-use crate::modes::{self, all_stops, are_met, locked};
+use crate::locks::{all_stops, locked, placed};
+use crate::modes::{self, are_met};
 use crate::pressing::{held, pressed};
 use crate::sticking::{
     Held, Limits, Undecided, all_frictions, decide, direction, frictions, set, unanswered,
@@ -73,9 +74,13 @@ impl<D: Dynamics> Jump<'_, D> {
         let gaps = Gaps::of(equations, at, a.as_ref());
         let count = equations.info().stops.len();
         let info = equations.info();
+        let none = STILL * vectors::largest(a.as_ref()).1.to_f64();
         let pulls = those(info.watched_contacts(), |row| {
             let against = direction(info, inputs, row) * number(&gaps.rate, row);
-            if has(held, row) { number(&margins, row) < 0.0 } else { against < -*slowest }
+            let margin = number(&margins, row);
+            // a stop from which a mode pulls
+            let is_left = row < count && margin <= 0.0 && number(&gaps.acceleration, row) > none;
+            if has(held, row) { margin < 0.0 || is_left } else { against < -*slowest }
         });
         let pushes = those(count, |stop| has(held, stop) && number(&margins, stop) > 0.0);
         let closed = those(count, |stop| {
@@ -267,14 +272,15 @@ impl<D: Dynamics> Jump<'_, D> {
         let rests = |stop: usize| is_still(&rates, &still, stop) || has(stuck, stop);
         let resting = those(count, |stop| has(closed & !pulling, stop) && rests(stop));
         let left = |row: usize| {
-            JUMPS * number(&still, row) + modes::left_of::<D::Real>(number(&gaps.rate, row).abs())
+            let slowest = number(&still, row).max(self.slowest * number(&slopes, row));
+            JUMPS * slowest + modes::left_of::<D::Real>(number(&gaps.rate, row).abs())
         };
-        are_met(info, self.t.to_f64(), locked, |row| number(&rates, row), left)?;
+        modes::do_not_contradict(info, self.t.to_f64(), locked, |row| number(&rates, row), left)?;
         let found = if is_impact { 0 } else { reached };
         let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);
         let halted = those(MOST_CONTACTS, |row| has(friction & found & !held, row) && is_halted(row));
         let [not_moving, leaving] = self.slide(halted, &rates, &still);
-        self.clear(resting | locked, &gaps.gap, true);
+        self.clear(resting | placed(info, locked), &gaps.gap, true);
         let breaking = found & held & !stuck | leaving;
         let Held { held, .. } = self.decide(Undecided { resting, still: not_moving, breaking })?;
         // what friction does not hold keeps its velocity: at a dead centre it would be that of the whole mechanism
@@ -340,7 +346,14 @@ impl<D: Dynamics> Jump<'_, D> {
                 contacts.add(&impulses, after.as_mut());
                 Some((impulses, after))
             });
-            let (impulses, after) = solved.flatten().ok_or_else(|| self.unanswered(closed))?;
+            let Some((impulses, after)) = solved.flatten() else {
+                // a stop whose gap a mode keeps throws nothing back
+                if locked == 0 || closed & !settled == 0 {
+                    return Err(self.unanswered(closed));
+                }
+                settled |= closed;
+                continue;
+            };
             self.v = after;
             let thrown = self.pressed(closed, stopping.size)?;
             let (mut more, mut shortest) = (0, f64::INFINITY);

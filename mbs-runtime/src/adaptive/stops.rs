@@ -10,6 +10,7 @@ use super::jump::{CLOSED, Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::contact::{MOST_CONTACTS, bit, has, number, those};
 use crate::equations::{At, Equations};
+use crate::locks::placed;
 use crate::pressing::held;
 use crate::sticking::{all_frictions, direction, frictions, set};
 use crate::{Error, Real, modes};
@@ -83,10 +84,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if reached != 0 {
             return self.jump_at(reached);
         }
-        self.with_memories(|equations, at, inputs| {
-            let (_, seen) = modes::due(equations, at, inputs, off);
-            modes::note(equations.info(), &seen, inputs);
-        });
+        if !self.dynamics.equations().info().modes.transitions.is_empty() {
+            self.with_memories(|equations, at, inputs| {
+                let (_, seen) = modes::due(equations, at, inputs, off);
+                modes::note(equations.info(), &seen, inputs);
+            });
+        }
         Ok(())
     }
 
@@ -204,7 +207,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             let hit = jump.hit(held, size);
             if hit == 0 {
                 let (gaps, info) = (jump.gaps().gap, jump.dynamics.equations().info());
-                jump.clear(held & !all_frictions(info), &gaps, true);
+                jump.clear(placed(info, held) & !all_frictions(info), &gaps, true);
                 let rates = jump.gaps().rate;
                 jump.clear(held, &rates, false);
             }

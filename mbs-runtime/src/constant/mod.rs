@@ -61,7 +61,7 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     pub fn step(&mut self) -> Result<(), Error> {
         let was_solved = self.is_solved;
         // a step that fails behind an impact has not set memories
-        let inputs = self.dynamics.has_stops().then(|| self.inputs.clone());
+        let inputs = self.dynamics.equations().info().jumps().then(|| self.inputs.clone());
         let taken = self.try_step();
         if taken.is_err() {
             copy_moment(&mut self.next, &self.now);
@@ -92,11 +92,11 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// The stops that push before a step.
     fn push(&mut self) -> Result<u32, Error> {
         let Self { dynamics, inputs, step, next, all: [q, v], .. } = self;
-        if !dynamics.has_stops() {
+        if !dynamics.equations().info().jumps() {
             return Ok(0);
         }
         let (mut v, mut vectors) = (v.clone(), vectors(dynamics));
-        let pushed = dynamics.with_inputs(inputs, |inputs| {
+        let pushed = with_memories(dynamics, next.t, inputs, |inputs| {
             let at = (next.t, q.as_ref(), v.as_mut());
             moreau::push(dynamics.equations(), (*step, vectors.changes()), at, inputs)
         })?;
@@ -110,14 +110,14 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// Leads the step that was tried back from the stops that are closed at its end.
     fn strike(&mut self, pushed: u32) -> Result<(), Error> {
         let Self { dynamics, inputs, step, now, next, all: [q_before, v_before], .. } = self;
-        if !dynamics.has_stops() {
+        if !dynamics.equations().info().jumps() {
             return Ok(());
         }
         let (t, mut vectors, mut after) = (next.t, vectors(dynamics), [q_before.clone(), v_before.clone()]);
         dynamics.complete(t, &next.q, &next.v, &mut after);
         let [q, v] = &mut after;
         let before = At { t: now.t, q: q_before.as_ref(), v: v_before.as_ref() };
-        let has_acted = dynamics.with_inputs(inputs, |inputs| {
+        let has_acted = with_memories(dynamics, t, inputs, |inputs| {
             let (end, equations) = ((t, [q.as_mut(), v.as_mut()]), dynamics.equations());
             moreau::strike(equations, (*step, vectors.changes()), (pushed, before), end, inputs)
         })?;
@@ -132,11 +132,11 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// Rests on the stops that the start touches.
     fn touch(&mut self) -> Result<(), Error> {
         let Self { dynamics, inputs, step, now, all: [q, v], .. } = self;
-        if !dynamics.has_stops() {
+        if !dynamics.equations().info().jumps() {
             return Ok(());
         }
         let (at, mut vectors) = (At { t: now.t, q: q.as_ref(), v: v.as_ref() }, vectors(dynamics));
-        dynamics.with_inputs(inputs, |inputs| {
+        with_memories(dynamics, now.t, inputs, |inputs| {
             moreau::begin(dynamics.equations(), (*step, vectors.changes()), at, inputs)
         })
     }
@@ -166,15 +166,12 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     fn sample(&mut self) {
         let (grid, steps) = (self.grid(), self.steps);
         let Self { dynamics, inputs, now, all: [q, v], .. } = self;
-        let sampling = dynamics.equations().info().sampling;
-        if sampling.clocks == 0 {
+        if dynamics.equations().info().sampling.clocks == 0 {
             return;
         }
         let at = At { t: now.t, q: q.as_ref(), v: v.as_ref() };
-        let mut present = dynamics.inputs_at(now.t, inputs);
-        dynamics.with_inputs(&mut present, |present| {
+        with_memories(dynamics, now.t, inputs, |present| {
             grid.sample(steps, dynamics.equations(), at, present);
-            dynamics.with_inputs(inputs, |own| sampling.set_memories(own, present));
         });
         self.is_solved = false;
     }
@@ -294,4 +291,20 @@ fn copy_moment<T: Real, V: AsRef<[T]> + AsMut<[T]>>(to: &mut Moment<T, V>, from:
     assign(&mut to.v, &from.v);
     assign(&mut to.a, &from.a);
     to.t = from.t;
+}
+
+/// Does something that sets memories, with the inputs that there are at a time.
+fn with_memories<D: Dynamics, R>(
+    dynamics: &D,
+    t: D::Real,
+    inputs: &mut D::Inputs,
+    what: impl FnOnce(&mut [D::Real]) -> R,
+) -> R {
+    let sampling = dynamics.equations().info().sampling;
+    let mut present = dynamics.inputs_at(t, inputs);
+    dynamics.with_inputs(&mut present, |present| {
+        let result = what(present);
+        dynamics.with_inputs(inputs, |own| sampling.set_memories(own, present));
+        result
+    })
 }

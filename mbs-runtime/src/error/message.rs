@@ -137,6 +137,19 @@ impl fmt::Display for Error {
                 Plain(by),
                 t = Shown(t)
             ),
+            Self::Contradiction { t, constraint, rate } => write!(
+                f,
+                "at t = {t} s the constraint `{constraint}` of a mode contradicts what else holds, another mode, a drive or a joint: \
+                 its rate stays at {} (SI units); leave one of them before",
+                Plain(rate),
+                t = Shown(t)
+            ),
+            Self::Endless { t, condition } => write!(
+                f,
+                "at t = {t} s what `{condition}` sets lets conditions begin to hold anew, and has no end: let a condition that \
+                 enters be another one than that which leaves",
+                t = Shown(t)
+            ),
             Self::Behind { t, stop, gap } => write!(
                 f,
                 "at t = {t} s this position is behind the stop `{stop}`: its gap is {} (SI units); a mechanism starts and rests \

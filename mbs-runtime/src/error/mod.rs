@@ -175,8 +175,24 @@ pub enum Error {
         t: f64,
         /// The constraint.
         constraint: &'static str,
-        /// Φ in SI units, or Φ̇ where it cannot become 0.
+        /// Φ in SI units.
         by: f64,
+    },
+    /// A constraint of a mode that holds against others.
+    Contradiction {
+        /// The time in s.
+        t: f64,
+        /// The constraint.
+        constraint: &'static str,
+        /// Φ̇ in SI units, which cannot become 0.
+        rate: f64,
+    },
+    /// Transitions that follow each other at one moment without an end.
+    Endless {
+        /// The time in s.
+        t: f64,
+        /// One of their conditions.
+        condition: &'static str,
     },
     /// A state behind a stop.
     Behind {

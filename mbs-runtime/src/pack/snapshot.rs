@@ -7,6 +7,7 @@
 use super::instances::{Instances, Moment, put};
 use super::{Each, Many, ManyCoordinates, ManyOutputs, trouble_of};
 use crate::components::sum_of;
+use crate::described::measured;
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::growth_limit;
 use crate::simulation::press;
@@ -91,7 +92,7 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
             let at = mechanism.complete(&self.moment.state_of(lane));
             let mut reactions = mechanism.reactions(&at, &inputs, &none);
             press(&mechanism, &at, &inputs, &mut reactions);
-            let values = mechanism.outputs(&at, &inputs, &reactions);
+            let values = measured(&mechanism, &at, &inputs, &reactions);
             let trouble = trouble_of(sum_of(reactions.acceleration)) + trouble_of(sum_of(values));
             healthy[lane] = reactions.growth + trouble < growth_limit();
             put(&mut outputs, lane, values);
@@ -105,7 +106,7 @@ impl<'a, M: Mechanism<Real: Lane>, const N: usize> Snapshot<'a, M, N> {
         let none = <Many<M, N> as Mechanism>::Constraints::splat(Lanes::default());
         let mut reactions = self.mechanism().reactions(&at, &inputs, &none);
         press(self.mechanism(), &at, &inputs, &mut reactions);
-        let outputs = self.mechanism().outputs(&at, &inputs, &reactions);
+        let outputs = measured(self.mechanism(), &at, &inputs, &reactions);
         let is_finite = reactions.acceleration.is_finite() && outputs.is_finite();
         (outputs, [is_finite && reactions.growth < growth_limit(); N])
     }

@@ -12,6 +12,7 @@ pub use self::builder::Builder;
 pub(crate) use self::on_slices::{press, pushed, struck};
 
 use crate::components::sum_of;
+use crate::described::measured;
 use crate::mechanism::growth_limit;
 use crate::run::check_outputs;
 use crate::watch::{Watch, WorstPlace};
@@ -242,7 +243,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     #[inline]
     pub fn outputs(&self) -> Result<M::Outputs, Error> {
         let reactions = self.reactions()?;
-        let outputs = self.mechanism.outputs(&self.state(), &self.inputs, &reactions);
+        let outputs = measured(&self.mechanism, &self.state(), &self.inputs, &reactions);
         self.check_outputs(outputs).map(|()| outputs)
     }
 

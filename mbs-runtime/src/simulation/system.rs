@@ -1,6 +1,7 @@
 //! A simulation as tools see it.
 
 use super::Simulation;
+use crate::described::measured;
 use crate::equations::{Described, read, write};
 use crate::mechanism::is_fused_for;
 use crate::watch::WorstPlace;
@@ -65,7 +66,7 @@ impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
         let growth = M::Real::default();
         let reactions =
             Reactions { acceleration: read(acceleration), multipliers: read(multipliers), growth };
-        let measured = self.mechanism().outputs(&self.state(), self.inputs(), &reactions);
+        let measured = measured(self.mechanism(), &self.state(), self.inputs(), &reactions);
         write(measured, outputs);
         self.check_outputs(measured)
     }

@@ -161,9 +161,9 @@ mod tests {
             mode bolted { constraint bolt: theta = 0; }
             when theta > 1 { enter held; }
             when t > 9 [s] { leave held; enter bolted; }
-            output held = held;
             start { der(theta) = 1 [rad/s]; }
             output opening [mm] = x;
+            output held = held;
         }
     }
 

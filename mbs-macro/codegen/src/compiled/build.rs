@@ -111,9 +111,10 @@ fn friction_of(model: &Model, friction: &model::Friction) -> Friction {
 }
 
 fn lock_of(model: &Model, lock: &model::Lock) -> Lock {
-    let of_rate = model.arena.is_zero(lock.contact.gap);
-    let formula = readable(&model.arena, if of_rate { lock.contact.rate } else { lock.contact.gap });
-    Lock { name: lock.name.clone(), mode: lock.mode, held: lock.held, formula, span: lock.span }
+    let is_rate = model.arena.is_zero(lock.contact.gap);
+    let formula = readable(&model.arena, if is_rate { lock.contact.rate } else { lock.contact.gap });
+    let model::Lock { name, mode, held, span, .. } = lock;
+    Lock { name: name.clone(), mode: *mode, held: *held, is_rate, formula, span: *span }
 }
 
 impl From<&model::Mode> for Mode {

@@ -44,6 +44,8 @@ pub struct Lock {
     pub mode: usize,
     /// That of the memory of its multiplier.
     pub held: usize,
+    /// True of an equation between rates, which restricts no position.
+    pub is_rate: bool,
     /// Φ, or Φ̇ of an equation between rates, unless it is too long to read.
     pub formula: String,
     /// Where it is declared.
@@ -67,7 +69,7 @@ impl Compiled {
     pub(super) fn contact_count(&self) -> usize {
         let contacts = self.contacts();
         let response = 2 * self.coordinates.len() + self.constraints.len() + contacts;
-        if contacts == 0 { 0 } else { contacts * response + 1 }
+        if contacts == 0 { 0 } else { contacts * (response + 1) + 1 }
     }
 
     /// The place of the first memory of every stop, behind them of every friction that sticks, and behind these of the modes

@@ -19,7 +19,7 @@ use super::resolver::Resolver;
 use super::{Constraint, Contact, Lock, Meaning, Mode, Transition};
 use crate::diagnostics::{Diagnostic, described, listing, nearest};
 use crate::quantity::{Comparison, Setting};
-use crate::syntax::{Declaration, ItemKind, When};
+use crate::syntax::{Declaration, FormulaKind, ItemKind, When};
 
 /// A run looks at the condition of each of them in every step.
 const MOST_TRANSITIONS: usize = 16;
@@ -184,9 +184,17 @@ impl Resolver<'_> {
             ItemKind::When(when) => when.sets.as_slice(),
             _ => &[],
         });
-        let set: BTreeSet<String> = sets.map(|set| set.memory.to_string()).collect();
+        let (mut set, mut entered) = (BTreeSet::new(), BTreeSet::new());
+        for it in sets {
+            let name = it.memory.to_string();
+            let is_entered = matches!(&it.value.kind, FormulaKind::Number { value, .. } if !value.is_zero());
+            if is_entered {
+                entered.insert(name.clone());
+            }
+            set.insert(name);
+        }
         for item in &declaration.items {
-            let ItemKind::Mode { name, rows, .. } = &item.kind else { continue };
+            let ItemKind::Mode { name, value, rows } = &item.kind else { continue };
             let mut refuse = |message: String, help: String| {
                 self.errors.push(Diagnostic::new(name.span(), message).help(help));
             };
@@ -196,6 +204,9 @@ impl Resolver<'_> {
             } else if !set.contains(&name.to_string()) {
                 let help = format!("say when, as in `when x < 0 [m] {{ enter {name}; }}`");
                 refuse(format!("nothing enters or leaves `{name}`"), help);
+            } else if value.is_none() && !entered.contains(&name.to_string()) {
+                let help = format!("enter it, or let it hold at first: `mode {name} = 1 {{ … }}`");
+                refuse(format!("nothing enters `{name}`"), help);
             }
             if self.solver.has_reduced_states() {
                 let help = "leave `states = reduced;` out where there are modes".to_owned();

@@ -132,10 +132,14 @@ impl Resolver<'_> {
         if memories.iter().any(|memory| memory.quantity.name == text) {
             return None;
         }
-        let names = memories.iter().map(|memory| memory.quantity.name.as_str());
+        // those that a run has for itself have no names
+        let is_named = |name: &&str| self.scope.values.contains_key(*name);
+        let names = memories.iter().map(|memory| memory.quantity.name.as_str()).filter(is_named);
         let help = match nearest(&text, names.clone()) {
             Some(near) => format!("did you mean `{near}`?"),
-            None if memories.is_empty() => "declare a memory with its unit: `memory u [V] = 0;`".to_owned(),
+            None if names.clone().next().is_none() => {
+                "declare a memory with its unit: `memory u [V] = 0;`".to_owned()
+            }
             None => format!("the memories are {}", listing(names)),
         };
         self.errors.push(Diagnostic::new(name.span(), message).help(help));
@@ -144,6 +148,11 @@ impl Resolver<'_> {
 
     /// A memory that no stop sets.
     fn settable(&mut self, name: &Ident, memory: usize, symbol: Symbol) -> Option<(usize, Symbol)> {
+        if self.modes.iter().any(|mode| mode.memory == memory) {
+            let help = format!("write `enter {name};` or `leave {name};`");
+            self.errors.push(Diagnostic::new(name.span(), format!("`{name}` is a mode")).help(help));
+            return None;
+        }
         let of_stops = self.stops.iter().map(|stop| stop.memory);
         let mut of_contacts = of_stops.chain(self.frictions.iter().map(|friction| friction.memory));
         if of_contacts.all(|own| own != memory && own + 1 != memory) {

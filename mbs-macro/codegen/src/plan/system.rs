@@ -267,7 +267,7 @@ impl Solver {
     }
 
     /// The response to a unit impulse along every contact g, of velocities and multipliers, and ∂g/∂q; how impulses change
-    /// the rates of all of them, and the growth; nothing without contacts.
+    /// the rates of all of them, by how much each its own without joints, and the growth; nothing without contacts.
     pub fn contacts(&self, model: &mut Model, problem: Problem<'_>) -> Vec<Expr> {
         let Problem { equations, rows, .. } = problem;
         let gaps: Vec<_> = model.contacts().map(|contact| contact.slopes.clone()).collect();
@@ -293,6 +293,19 @@ impl Solver {
             }
         }
         roots.extend(mobility);
+        let masses = masses::entries(equations);
+        for gap in &gaps {
+            let arena = &mut model.arena;
+            let mut free = arena.zero();
+            for &(at, slope) in gap {
+                let Some(&mass) = masses.get(at).filter(|mass| !arena.is_zero(**mass)) else { continue };
+                let squared = arena.mul(slope, slope);
+                let inverse = arena.powi(mass, -1);
+                let term = arena.mul(squared, inverse);
+                free = arena.add(free, term);
+            }
+            roots.push(free);
+        }
         // of positions alone: loads that depend on reactions have their own in the other functions
         roots.push(self.factorization.growth(&mut model.arena));
         roots

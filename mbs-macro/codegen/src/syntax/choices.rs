@@ -1,12 +1,12 @@
 //! Formulas that choose: `if a < b { p } else { q }`.
 
-use proc_macro2::{Delimiter, Group, TokenTree};
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use syn::parse::ParseStream;
 use syn::{Ident, Result, Token, braced, parenthesized, token};
 
 use super::formula::{checked, end, sum};
-use super::words::helped;
-use super::{Choice, Formula, FormulaKind, Test};
+use super::words::{helped, written};
+use super::{Choice, Condition, Formula, FormulaKind, Test};
 use crate::quantity::Comparison;
 
 const EXAMPLE: &str = "as in `if x < 0 [m] { -k*x } else { 0 }`";
@@ -126,4 +126,25 @@ fn holds_condition(group: &Group) -> bool {
             TokenTree::Group(inner) => inner.delimiter() == Delimiter::Parenthesis && holds_condition(&inner),
             _ => false,
         })
+}
+
+/// A comparison of two formulas, as it was written.
+pub(super) fn condition(input: ParseStream<'_>, example: &str) -> Result<Condition> {
+    let ahead = input.fork();
+    let left = input.parse()?;
+    let comparison_span = input.span();
+    let Some(comparison) = comparison(input)? else {
+        return Err(input.error(format!("one of `<`, `<=`, `>`, `>=` is expected here, as in `{example}`")));
+    };
+    let right = input.parse()?;
+    let mut text = TokenStream::new();
+    while !ahead.is_empty() && !ahead.peek(Token![<]) && !ahead.peek(Token![>]) {
+        text.extend([ahead.parse::<TokenTree>()?]);
+    }
+    let left_text = written(text.clone());
+    while !(ahead.is_empty() || ahead.peek(Token![;]) || ahead.peek(token::Brace)) {
+        text.extend([ahead.parse::<TokenTree>()?]);
+    }
+    let text = written(text);
+    Ok(Condition { left, comparison, comparison_span, right, text, left_text })
 }

@@ -1,22 +1,22 @@
 //! Statements: `param …;`, `body … { … }`, `constraint …;`.
 
-use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{Error, Result, Token, braced, parenthesized, token};
 
-use super::choices::comparison;
+use super::choices::condition;
 use super::formula::{end, is_vector};
 use super::indices::Indices;
 use super::keywords::{STATEMENTS, keywords, neighbour};
 use super::statements::Reader;
 use super::words::{
     block, definition, doc, equals, helped, name, name_before_unit, path, properties, semicolon, usable,
-    with_unit, written,
+    with_unit,
 };
-use super::{Condition, Coordinate, Declaration, EnergyRole, ItemKind, Load, Role, StartEntry};
+use super::{Coordinate, Declaration, EnergyRole, ItemKind, Load, Role, StartEntry};
 use super::{elements, groups, joints};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::mechanics::elements::{ELEMENTS, FORCE_BETWEEN, TORQUE_BETWEEN};
@@ -129,26 +129,6 @@ pub(super) fn parameter(input: ParseStream<'_>) -> Result<ItemKind> {
     };
     semicolon(input)?;
     Ok(ItemKind::Parameter { name, value, condition })
-}
-
-pub(super) fn condition(input: ParseStream<'_>, example: &str) -> Result<Condition> {
-    let ahead = input.fork();
-    let left = input.parse()?;
-    let comparison_span = input.span();
-    let Some(comparison) = comparison(input)? else {
-        return Err(input.error(format!("one of `<`, `<=`, `>`, `>=` is expected here, as in `{example}`")));
-    };
-    let right = input.parse()?;
-    let mut text = TokenStream::new();
-    while !ahead.is_empty() && !ahead.peek(Token![<]) && !ahead.peek(Token![>]) {
-        text.extend([ahead.parse::<TokenTree>()?]);
-    }
-    let left_text = written(text.clone());
-    while !(ahead.is_empty() || ahead.peek(Token![;]) || ahead.peek(token::Brace)) {
-        text.extend([ahead.parse::<TokenTree>()?]);
-    }
-    let text = written(text);
-    Ok(Condition { left, comparison, comparison_span, right, text, left_text })
 }
 
 /// `require crank < rod;`

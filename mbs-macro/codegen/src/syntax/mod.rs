@@ -1,5 +1,6 @@
 //! The declaration as it was written: shapes are right, names are unresolved.
 
+mod blocks;
 mod choices;
 mod clocks;
 mod elements;

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span};
 use syn::parse::ParseStream;
 use syn::{Error, Result, Token, token};
 
-use super::items::condition;
+use super::choices::condition;
 use super::words::{name, path, semicolon};
 use super::{Condition, Formula, Item, ItemKind, Set};
 use crate::mechanics::joints::JOINTS;

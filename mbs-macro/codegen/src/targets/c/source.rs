@@ -76,7 +76,8 @@ fn jumps(compiled: &Compiled) -> String {
     };
     let steps: &[&str] = match compiled.contacts() {
         0 => &[include_str!("text/stepped_transitions.c")],
-        _ => &[include_str!("text/modes.c"), include_str!("text/stops.c")],
+        _ if compiled.transitions.is_empty() => &[include_str!("text/modes.c"), include_str!("text/stops.c")],
+        _ => &[include_str!("text/due.c"), include_str!("text/modes.c"), include_str!("text/stops.c")],
     };
     let rounding = if compiled.contacts() == 0 { ROUNDING } else { "" };
     [rounding, samples, transitions, &steps.concat()].concat()
@@ -201,10 +202,11 @@ fn tables(target: &Target<'_>) -> String {
         let declaration = "/* The first memory of every stop, behind them of every friction that sticks, and those of the \
                            modes of constraints. */\nstatic const int NAME_memories[]";
         add(declaration, places, "0");
-        let multipliers = compiled.locks.iter().map(|lock| lock.held.to_string()).collect();
-        let declaration =
-            "/* The memories of the multipliers of modes. */\nstatic const int NAME_multipliers[]";
-        add(declaration, multipliers, "0");
+        let locks = compiled.locks.iter();
+        let locks = locks.map(|lock| format!("{{{}, {}}}", lock.held, u8::from(lock.is_rate))).collect();
+        let declaration = "/* The memories of the multipliers of modes, and whether their constraints are of rates. */\n\
+                           static const int NAME_locks[][2]";
+        add(declaration, locks, "{0, 0}");
     }
     if !compiled.transitions.is_empty() {
         let sign = |is_positive| if is_positive { 1 } else { -1 };

@@ -104,9 +104,11 @@ fn modes(compiled: &Compiled, runtime: &TokenStream) -> TokenStream {
         let memory = Literal::usize_unsuffixed(*memory);
         quote!(#runtime::DeclaredMode { name: #name, memory: #memory })
     });
-    let locks = compiled.locks.iter().map(|Lock { name, mode, held, formula, .. }| {
+    let locks = compiled.locks.iter().map(|Lock { name, mode, held, is_rate, formula, .. }| {
         let [mode, held] = [mode, held].map(|it| Literal::usize_unsuffixed(*it));
-        quote!(#runtime::DeclaredLock { name: #name, mode: #mode, held: #held, formula: #formula })
+        quote! {
+            #runtime::DeclaredLock { name: #name, mode: #mode, held: #held, is_rate: #is_rate, formula: #formula }
+        }
     });
     let transitions = compiled.transitions.iter().map(|Transition { text, is_rising, is_strict, memory }| {
         let memory = Literal::usize_unsuffixed(*memory);

@@ -45,6 +45,7 @@ pub fn tables(compiled: &Compiled) -> String {
         ("stops", array(compiled.contact_memories().map(|memory| memory.to_string()))),
         ("frictions", compiled.frictions.len().to_string()),
         ("multipliers", array(compiled.locks.iter().map(|lock| lock.held.to_string()))),
+        ("ofRates", array(compiled.locks.iter().map(|lock| lock.is_rate.to_string()))),
         ("transitions", array(compiled.transitions.iter().map(transition))),
         ("contacts", compiled.length(Results::Contacts).to_string()),
         ("coordinates", quantities(&compiled.coordinates)),

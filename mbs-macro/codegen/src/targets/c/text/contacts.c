@@ -7,17 +7,29 @@ static real NAME_mobility(const real *contacts, int of, int by)
     return contacts[CAPS_ROWS * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS + by) + of];
 }
 
-/* x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set. */
+/* What that of its own rate would be without joints; where no mass tells, as it is. */
+static double NAME_free_mobility(const real *contacts, int row)
+{
+    const double free = (double)contacts[CAPS_ROWS * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS + CAPS_ROWS) + row];
+    return free > 0 && free <= 1.7976931348623157e308 ? free : (double)NAME_mobility(contacts, row, row);
+}
+
+/* x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set. Constraints of modes
+   are the first, in the order of their pivots. A pivot is rounding beside what W would be without joints, and beside what it
+   was before the others. */
 static void NAME_solve_at_stops(const real *contacts, const int *set, const real *b, real *x)
 {
     real rows[CAPS_ROWS][CAPS_ROWS + 1] = {{0}};
-    double diagonal[CAPS_ROWS];
-    int members[CAPS_ROWS], is_pivot[CAPS_ROWS], count = 0;
-    for (int stop = 0; stop < CAPS_ROWS; stop++) {
-        x[stop] = 0;
-        if (set[stop]) {
-            members[count] = stop;
+    double diagonal[CAPS_ROWS], free[CAPS_ROWS];
+    int members[CAPS_ROWS], is_pivot[CAPS_ROWS] = {0}, is_done[CAPS_ROWS] = {0}, locks = 0, count = 0;
+    for (int place = 0; place < CAPS_ROWS; place++) {
+        const int is_lock = place < CAPS_ROWS - CAPS_OWN_ROWS;
+        const int row = is_lock ? CAPS_OWN_ROWS + place : place - (CAPS_ROWS - CAPS_OWN_ROWS);
+        x[row] = 0;
+        if (set[row]) {
+            members[count] = row;
             count++;
+            locks += is_lock;
         }
     }
     for (int row = 0; row < count; row++) {
@@ -26,10 +38,21 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
         }
         rows[row][CAPS_ROWS] = -b[members[row]];
         diagonal[row] = (double)rows[row][row];
+        free[row] = NAME_free_mobility(contacts, members[row]);
     }
-    for (int at = 0; at < count; at++) {
+    for (int turn = 0; turn < count; turn++) {
+        int at = -1;
+        for (int lock = 0; lock < locks; lock++) {
+            if (!is_done[lock]
+                && (at < 0 || (double)rows[lock][lock] / free[lock] > (double)rows[at][at] / free[at])) {
+                at = lock;
+            }
+        }
+        at = at < 0 ? turn : at;
         const real pivot = rows[at][at];
-        is_pivot[at] = (double)pivot > NAME_rounding(1e-10) * diagonal[at];
+        const double shared = NAME_rounding(1e-10) * diagonal[at], least = 64.0 * (double)NAME_epsilon * free[at];
+        is_pivot[at] = (double)pivot > (shared > least ? shared : least);
+        is_done[at] = 1;
         for (int row = 0; is_pivot[at] && row < count; row++) {
             const real factor = rows[row][at] / pivot;
             for (int column = 0; row != at && column <= CAPS_ROWS; column++) {

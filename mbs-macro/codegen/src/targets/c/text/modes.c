@@ -12,6 +12,27 @@ static double NAME_slope(const real *contacts, int row)
     return slope;
 }
 
+/* True if a set has a contact. */
+static int NAME_is_any(const int *set)
+{
+    int is_any = 0;
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        is_any = is_any || set[row];
+    }
+    return is_any;
+}
+
+/* How much of a constraint, or its rate, is that of joints which are off. */
+static double NAME_of_joints(const real *contacts, int row, const struct NAME_constraints *off)
+{
+    const real *const reactions = contacts + row * (2 * CAPS_COORDINATES + CAPS_CONSTRAINTS) + CAPS_COORDINATES;
+    double sum = 0;
+    for (int k = 0; k < CAPS_CONSTRAINTS; k++) {
+        sum = sum + fabs((double)(reactions[k] * NAME_elements(off)[k]));
+    }
+    return 2.0 * sum;
+}
+
 /* How far a constraint may be off where its mode is entered. */
 static double NAME_allowed(double size, double slope)
 {
@@ -27,6 +48,7 @@ static int NAME_engage(struct NAME_run *run)
     const double size = (double)NAME_largest(NAME_elements(&at->q), CAPS_LINES);
     const double fastest = (double)NAME_largest(NAME_elements(&at->v), CAPS_LINES);
     struct NAME_coordinates of_v = {0};
+    struct NAME_constraints off = {0};
     real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, rates[CAPS_ROWS], after[CAPS_ROWS], impulses[CAPS_ROWS] = {0};
     int locked[CAPS_ROWS], set[CAPS_ROWS];
     if (!NAME_find_locked(run, locked)) {
@@ -35,9 +57,11 @@ static int NAME_engage(struct NAME_run *run)
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, gaps);
     NAME_compute_contacts(m, at->t, &at->q, contacts);
     NAME_find_held(run, set);
+    NAME_compute_phi(m, at->t, &at->q, &off);
     for (int row = 0; row < CAPS_ROWS; row++) {
         const double way = 4.0 * (double)run->step * fabs((double)gaps[3 * row + 1]);
-        const double allowed = NAME_allowed(size, NAME_slope(contacts, row)) + way;
+        const double allowed =
+            NAME_allowed(size, NAME_slope(contacts, row)) + way + NAME_of_joints(contacts, row, &off);
         rates[row] = gaps[3 * row + 1];
         after[row] = rates[row];
         set[row] = locked[row] || (row < CAPS_STOPS && set[row]);
@@ -51,11 +75,16 @@ static int NAME_engage(struct NAME_run *run)
         return NAME_unanswered(run, locked);
     }
     NAME_change_rates(contacts, impulses, after);
+    NAME_compute_phi_dot(m, at->t, &at->q, &at->v, &off);
     for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
-        const double left = NAME_rounding(1e-6) * (fabs((double)rates[row]) + NAME_slope(contacts, row) * fastest);
+        /* and what moves no position by more than rounding */
+        const double slope = NAME_slope(contacts, row), slowest = 1e-9 * (1e-3 + size) / (double)run->step;
+        const double left =
+            NAME_rounding(1e-6) * (fabs((double)rates[row]) + slope * fastest) + slope * slowest
+            + NAME_of_joints(contacts, row, &off);
         if (locked[row] && !(fabs((double)after[row]) <= left)) {
             run->where = NAME_memories[row];
-            return CAPS_APART;
+            return CAPS_CONTRADICTION;
         }
     }
     NAME_add_responses(contacts, impulses, 0, CAPS_COORDINATES, NAME_places(&of_v));
@@ -74,8 +103,8 @@ static void NAME_close(struct NAME_run *run)
         return;
     }
     NAME_find_held(run, set);
-    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
-        set[row] = 0;
+    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        set[row] = set[row] && row >= CAPS_OWN_ROWS && !NAME_is_of_rates(row);
     }
     for (int step = 0; step < 4; step++) {
         struct NAME_coordinates of_q = {0};
@@ -92,9 +121,9 @@ static void NAME_close(struct NAME_run *run)
 }
 
 /* What conditions change that have begun to hold at the end of a step. */
-static int NAME_pass_and_engage(struct NAME_run *run)
+static int NAME_pass_and_engage(struct NAME_run *run, const int *known)
 {
-    int passes = 0, code = NAME_pass(run, &passes);
+    int passes = 0, code = NAME_pass(run, known, &passes);
     if (code != CAPS_OK || !passes) {
         return code;
     }

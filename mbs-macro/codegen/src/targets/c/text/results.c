@@ -99,6 +99,7 @@ const char *NAME_where(const struct NAME_run *run, int code)
     case CAPS_IMPACT:
     case CAPS_JAMMED:
     case CAPS_APART:
+    case CAPS_CONTRADICTION:
     case CAPS_BAD_INPUT: return NAME_input_names[run->where];
     default: return "";
     }

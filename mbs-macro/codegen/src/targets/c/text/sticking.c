@@ -26,12 +26,18 @@ static int NAME_find_locked(const struct NAME_run *run, int *locked)
     return is_locked;
 }
 
+/* True of constraints of modes that restrict no position. */
+static int NAME_is_of_rates(int row)
+{
+    return row >= CAPS_OWN_ROWS && NAME_locks[row - CAPS_OWN_ROWS][1];
+}
+
 /* Sets the memories of the multipliers of the constraints of modes that hold. */
 static void NAME_note_multipliers(struct NAME_run *run, const int *held, const real *forces)
 {
     for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
-        const real force = held[row] ? forces[row] : 0;
-        NAME_places(&run->inputs)[NAME_multipliers[row - CAPS_OWN_ROWS]] = -force;
+        const real multiplier = held[row] ? -forces[row] : 0;
+        NAME_places(&run->inputs)[NAME_locks[row - CAPS_OWN_ROWS][0]] = multiplier;
     }
 }
 
@@ -43,7 +49,7 @@ static int NAME_unanswered(struct NAME_run *run, const int *set)
         first++;
     }
     run->where = NAME_memories[first];
-    return first < CAPS_STOPS ? CAPS_IMPACT : first < CAPS_OWN_ROWS ? CAPS_JAMMED : CAPS_APART;
+    return first < CAPS_STOPS ? CAPS_IMPACT : first < CAPS_OWN_ROWS ? CAPS_JAMMED : CAPS_CONTRADICTION;
 }
 
 /* Adds to rates of gaps their changes by impulses. */
@@ -305,8 +311,8 @@ static void NAME_find_way_back(
     int set[CAPS_ROWS], is_held = 0;
     for (int row = 0; row < CAPS_ROWS; row++) {
         const int held = it->halted[row] && stuck[row];
-        slipped[row] = locked[row] ? now[3 * row] : held ? now[3 * row] - was[3 * row] : 0;
-        set[row] = held || resting[row];
+        slipped[row] = locked[row] && !NAME_is_of_rates(row) ? now[3 * row] : held ? now[3 * row] - was[3 * row] : 0;
+        set[row] = held || (resting[row] && !NAME_is_of_rates(row));
         back[row] = 0;
         is_held = is_held || held || locked[row];
     }

@@ -74,6 +74,8 @@ struct NAME_answer {
     /* the part of the step behind the closing of a gap, and what an impulse moves positions by */
     real rest[CAPS_ROWS], shift[CAPS_ROWS];
     int closed[CAPS_ROWS], held[CAPS_ROWS], locked[CAPS_ROWS], is_impact;
+    /* how far gaps may be behind their stops where modes lead them */
+    double allowed[CAPS_ROWS];
     real impulses[CAPS_ROWS], moved[CAPS_ROWS], gaps[CAPS_ROWS];
 };
 
@@ -94,7 +96,12 @@ static int NAME_hit(
         approach[stop] = turn == 0 ? it->now[stop] - it->rest[stop] * change[stop] : rates[stop];
     }
     if (!NAME_hold_back(contacts, it->closed, it->locked, change, taken)) {
-        return 0;
+        if (!NAME_is_any(it->locked)) {
+            return 0;
+        }
+        for (int row = 0; row < CAPS_ROWS; row++) {
+            taken[row] = 0;
+        }
     }
     NAME_rebound(run, approach, thrown);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
@@ -106,8 +113,18 @@ static int NAME_hit(
         const real target = it->held[stop] ? 0 : thrown[stop] + later;
         wanted[stop] = rates[stop] - (target > 0 ? target : 0);
     }
-    if (!NAME_complementary(contacts, set, it->locked, wanted, more)) {
-        return 0;
+    /* a stop whose gap a mode keeps throws nothing back */
+    if (!NAME_complementary(contacts, set, it->locked, wanted, more)
+        && !(NAME_is_any(it->locked) && NAME_complementary(contacts, set, it->locked, rates, more))) {
+        /* where modes and drives lead to what is closed, it gives no impulse while it is closed within what modes may be off */
+        int is_led = NAME_is_any(it->locked);
+        for (int stop = 0; stop < CAPS_STOPS; stop++) {
+            is_led = is_led && !(closing[stop] && (double)it->gap_now[stop] < -it->allowed[stop]);
+        }
+        if (!is_led) {
+            return 0;
+        }
+        NAME_solve_at_stops(contacts, it->locked, rates, more);
     }
     for (int row = 0; row < CAPS_ROWS; row++) {
         it->impulses[row] = it->impulses[row] + more[row];
@@ -165,6 +182,7 @@ static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const stru
     struct NAME_constraints rows = {0};
     real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, rated[3 * CAPS_ROWS] = {0};
     real contacts[CAPS_CONTACTS] = {0}, shifts[CAPS_ROWS] = {0};
+    const double size = (double)NAME_largest(NAME_elements(&at->q), CAPS_LINES);
     int set[CAPS_ROWS], is_closed = 0;
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
@@ -187,6 +205,7 @@ static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const stru
     NAME_compute_contacts(m, at->t, &at->q, contacts);
     NAME_find_locked(run, it.locked);
     for (int row = 0; row < CAPS_ROWS; row++) {
+        it.allowed[row] = NAME_allowed(size, NAME_slope(contacts, row));
         it.gap_now[row] = now[3 * row];
         it.before[row] = rated[3 * row + 1];
         it.now[row] = now[3 * row + 1];
@@ -201,7 +220,7 @@ static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const stru
         return NAME_unanswered(run, it.closed);
     }
     for (int row = 0; row < CAPS_ROWS; row++) {
-        set[row] = it.held[row] || it.locked[row];
+        set[row] = it.held[row] || (it.locked[row] && !NAME_is_of_rates(row));
     }
     NAME_solve_at_stops(contacts, set, it.gaps, shifts);
     for (int row = 0; row < CAPS_ROWS; row++) {
@@ -289,12 +308,14 @@ int NAME_start_from(struct NAME_run *run, const struct NAME_state *state)
 int NAME_step(struct NAME_run *run)
 {
     const struct NAME_run before = *run;
-    int pushed[CAPS_ROWS] = {0};
+    int pushed[CAPS_ROWS] = {0}, due[CAPS_ROWS + 16] = {0};
     int code = NAME_push(run, pushed);
     code = code == CAPS_OK ? NAME_step_free(run) : code;
+    /* a stop may throw back what a condition has let pass */
+    NAME_find_due(run, due);
     code = code == CAPS_OK ? NAME_strike_stops(run, pushed, &before.state) : code;
     code = code == CAPS_OK ? NAME_halt(run, pushed, &before.state) : code;
-    code = code == CAPS_OK ? NAME_pass_and_engage(run) : code;
+    code = code == CAPS_OK ? NAME_pass_and_engage(run, due) : code;
     if (code != CAPS_OK) {
         const int where = run->where;
         *run = before;

@@ -13,25 +13,37 @@ static void NAME_look(struct NAME_run *run)
     }
 }
 
-/* Takes the samples of the transitions whose conditions have begun to hold, and of those whose conditions do by that. */
-static int NAME_pass(struct NAME_run *run, int *passes)
+/* Marks the transitions whose conditions have begun to hold; gives what their memories are from then on. */
+static void NAME_find_seen(const struct NAME_run *run, int *due, real *seen)
 {
     const struct NAME_state *const at = &run->state;
+    NAME_compute_transitions(run->mechanism, at->t, &at->q, &at->v, &run->inputs, seen);
+    for (int of = 0; of < CAPS_TRANSITIONS; of++) {
+        const double side = NAME_sides[of][1], now = (double)seen[of];
+        const double before = (double)NAME_elements(&run->inputs)[NAME_sides[of][0]];
+        const double size = fabs(before) > fabs(now) ? fabs(before) : fabs(now);
+        const int is_at_limit = fabs(now) <= NAME_rounding(1e-12) * fabs(before) && fabs(before) > 2e-30;
+        /* what a mode keeps at its limit is off by the error of a step */
+        const int has_held = side * before > 0;
+        const int holds =
+            has_held ? side * now >= -(NAME_rounding(1e-6) * fabs(before)) : side * now > 0 || is_at_limit;
+        due[of] = side * before < 0 && holds;
+        seen[of] = (real)(holds ? side * size : -side * size);
+    }
+}
+
+/* Takes the samples of the transitions whose conditions have begun to hold, those of some that are known among them, and of
+   those whose conditions do by that. */
+static int NAME_pass(struct NAME_run *run, const int *known, int *passes)
+{
     for (int turn = 0; turn <= 16; turn++) {
-        real values[CAPS_TRANSITIONS] = {0};
+        real seen[CAPS_TRANSITIONS] = {0};
         int due[CAPS_TRANSITIONS] = {0}, is_due = 0;
-        NAME_compute_transitions(run->mechanism, at->t, &at->q, &at->v, &run->inputs, values);
+        NAME_find_seen(run, due, seen);
         for (int of = 0; of < CAPS_TRANSITIONS; of++) {
-            real *const seen = NAME_places(&run->inputs) + NAME_sides[of][0];
-            const double side = NAME_sides[of][1], before = (double)*seen, now = (double)values[of];
-            const double size = fabs(before) > fabs(now) ? fabs(before) : fabs(now);
-            const int is_at_limit = fabs(now) <= NAME_rounding(1e-12) * fabs(before) && fabs(before) > 2e-30;
-            /* what a mode keeps at its limit is off by the error of a step */
-            const int has_held = side * before > 0;
-            const int holds = has_held ? side * now >= -(NAME_rounding(1e-6) * fabs(before)) : side * now > 0 || is_at_limit;
-            due[of] = side * before < 0 && holds;
+            NAME_places(&run->inputs)[NAME_sides[of][0]] = seen[of];
+            due[of] = due[of] || (turn == 0 && known[of]);
             is_due = is_due || due[of];
-            *seen = (real)(holds ? side * size : -side * size);
         }
         if (!is_due) {
             return CAPS_OK;

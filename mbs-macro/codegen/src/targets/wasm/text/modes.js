@@ -5,6 +5,12 @@ class Modes extends Sticking {
     return row >= this.tables.stops.length - this.tables.multipliers.length;
   }
 
+  // True of constraints of modes that restrict no position.
+  isOfRates(row) {
+    const { stops, multipliers, ofRates } = this.tables;
+    return this.isLock(row) && ofRates[row - (stops.length - multipliers.length)];
+  }
+
   // The constraints of the modes that hold.
   locked() {
     return this.held().map((it, row) => it && this.isLock(row));
@@ -15,7 +21,7 @@ class Modes extends Sticking {
     const { multipliers, stops } = this.tables;
     multipliers.forEach((memory, at) => {
       const row = stops.length - multipliers.length + at;
-      this.inputs[memory] = -(held[row] ? forces[row] : 0);
+      this.inputs[memory] = held[row] ? -forces[row] : 0;
     });
   }
 
@@ -30,6 +36,12 @@ class Modes extends Sticking {
     return 1e-6 * (1e-3 + size) * slope;
   }
 
+  // How much of a constraint, or its rate, is that of joints which are off.
+  ofJoints(row, off) {
+    const begin = this.responses(row) + this.q.length;
+    return 2 * off.reduce((sum, it, k) => sum + Math.abs(this.mechanism.contacts[begin + k] * it), 0);
+  }
+
   // Leads velocities to the constraints of the modes that hold.
   engage() {
     const m = this.mechanism, { lines } = this.tables, locked = this.locked();
@@ -37,17 +49,23 @@ class Modes extends Sticking {
     const size = largest(this.q.subarray(0, lines)), fastest = largest(this.v.subarray(0, lines));
     const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved), rates = gaps.map(({ rate }) => rate);
     m.call("contacts", this.t, this.q, m.contacts);
+    m.call("phi", this.t, this.q, m.phi);
     const off = gaps.findIndex(({ gap, rate }, row) => {
-      const way = 4 * this.h * Math.abs(rate);
-      return locked[row] && !(Math.abs(gap) <= this.allowed(size, this.slope(row)) + way);
+      const way = 4 * this.h * Math.abs(rate), allowed = this.allowed(size, this.slope(row));
+      return locked[row] && !(Math.abs(gap) <= allowed + way + this.ofJoints(row, m.phi));
     });
     if (off >= 0) this.failAtStop("APART", off);
-    if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("APART", locked.indexOf(true));
+    if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("CONTRADICTION", locked.indexOf(true));
     const set = this.held().map((it, row) => locked[row] || (it && this.isStop(row)));
     const impulses = this.complementary(set, rates, locked), after = this.changed(rates, impulses);
-    const left = after.findIndex((rate, row) => locked[row]
-      && !(Math.abs(rate) <= 1e-6 * (Math.abs(rates[row]) + this.slope(row) * fastest)));
-    if (left >= 0) this.failAtStop("APART", left);
+    // and what moves no position by more than rounding
+    const slowest = 1e-9 * (1e-3 + size) / this.h;
+    m.call("phi_dot", this.t, this.q, this.v, m.phiDot);
+    const left = after.findIndex((rate, row) => {
+      const slope = this.slope(row), least = 1e-6 * (Math.abs(rates[row]) + slope * fastest) + slope * slowest;
+      return locked[row] && !(Math.abs(rate) <= least + this.ofJoints(row, m.phiDot));
+    });
+    if (left >= 0) this.failAtStop("CONTRADICTION", left);
     const ofV = new Float64Array(this.q.length);
     this.addResponses(impulses, 0, ofV);
     add(this.v, 1, ofV);
@@ -55,7 +73,7 @@ class Modes extends Sticking {
 
   // Leads positions to the constraints of the modes that hold; stops that are rested on stay closed.
   close() {
-    const m = this.mechanism, set = this.held().map((it, row) => it && (this.isStop(row) || this.isLock(row)));
+    const m = this.mechanism, set = this.held().map((it, row) => it && (this.isStop(row) || (this.isLock(row) && !this.isOfRates(row))));
     if (!this.locked().includes(true)) return;
     for (let step = 0; step < 4; step++) {
       const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved), ofQ = new Float64Array(this.q.length);
@@ -79,18 +97,30 @@ class Modes extends Sticking {
     });
   }
 
-  // Takes the samples of the transitions whose conditions have begun to hold, and of those whose conditions do by that; true
-  // if there was one.
-  pass() {
+  // The transitions whose conditions have begun to hold, and what their memories are from then on.
+  seen() {
+    const due = [], seen = [];
+    this.transitionValues().forEach((now, of) => {
+      const [memory, side] = this.tables.transitions[of], before = this.inputs[memory];
+      const isAtLimit = Math.abs(now) <= 1e-12 * Math.abs(before) && Math.abs(before) > 2e-30;
+      // what a mode keeps at its limit is off by the error of a step
+      const hasHeld = side * before > 0;
+      const holds = hasHeld ? side * now >= -(1e-6 * Math.abs(before)) : side * now > 0 || isAtLimit;
+      const size = Math.max(Math.abs(before), Math.abs(now));
+      due[of] = side * before < 0 && holds;
+      seen[of] = holds ? side * size : -side * size;
+    });
+    return { due, seen };
+  }
+
+  // Takes the samples of the transitions whose conditions have begun to hold, those of some that are known among them, and of
+  // those whose conditions do by that; true if there was one.
+  pass(known) {
     for (let turn = 0; turn <= 16; turn++) {
-      const due = this.transitionValues().map((now, of) => {
-        const [memory, side] = this.tables.transitions[of], before = this.inputs[memory];
-        const isAtLimit = Math.abs(now) <= 1e-12 * Math.abs(before) && Math.abs(before) > 2e-30;
-        // what a mode keeps at its limit is off by the error of a step
-        const hasHeld = side * before > 0;
-        const holds = hasHeld ? side * now >= -(1e-6 * Math.abs(before)) : side * now > 0 || isAtLimit, size = Math.max(Math.abs(before), Math.abs(now));
-        this.inputs[memory] = holds ? side * size : -side * size;
-        return side * before < 0 && holds;
+      const { due, seen } = this.seen();
+      seen.forEach((it, of) => {
+        this.inputs[this.tables.transitions[of][0]] = it;
+        due[of] = due[of] || (turn === 0 && known[of]);
       });
       if (!due.includes(true)) return turn > 0;
       due.forEach((it, of) => { if (it) this.takeSample(this.tables.clocks + of); });
@@ -99,8 +129,8 @@ class Modes extends Sticking {
   }
 
   // What conditions change that have begun to hold at the end of a step.
-  passAndEngage() {
-    if (!this.pass() || !this.tables.stops.length) return;
+  passAndEngage(known) {
+    if (!this.pass(known) || !this.tables.stops.length) return;
     this.engage();
     this.close();
     this.engage();

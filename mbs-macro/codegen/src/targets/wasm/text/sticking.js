@@ -148,7 +148,7 @@ class Sticking extends Start {
   // What leads back to where they were what stuck in the whole step and has slipped, and to the constraints of modes; stops
   // that are rested on stay where they are.
   wayBack(slipped, resting, moved) {
-    if (!slipped.some((it) => it !== undefined)) return this.each(() => 0);
+    if (!slipped.some((it) => it !== undefined) && !this.locked().includes(true)) return this.each(() => 0);
     const b = this.changed(slipped.map((it) => it ?? 0), moved);
     return this.solveAtStops(slipped.map((it, row) => it !== undefined || resting[row]), b);
   }
@@ -187,10 +187,10 @@ class Sticking extends Start {
         const ofQ = new Float64Array(n), ofV = new Float64Array(n);
         const moved = impulses.map((impulse, row) => impulse * halting[row].shift);
         const slipped = gaps.map(({ gap }, row) => {
-          if (locked[row]) return gap;
+          if (locked[row] && !this.isOfRates(row)) return gap;
           return halted[row] && stuck[row] ? gap - gapsBefore[row].gap : undefined;
         });
-        const back = this.wayBack(slipped, resting, moved);
+        const back = this.wayBack(slipped, resting.map((it, row) => it && !this.isOfRates(row)), moved);
         this.addResponses(moved, 0, ofQ);
         this.addResponses(back, 0, ofQ);
         this.addResponses(impulses, 0, ofV);

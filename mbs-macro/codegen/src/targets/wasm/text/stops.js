@@ -27,14 +27,28 @@ class AtStops extends Modes {
     return this.mechanism.contacts[this.responses(this.tables.stops.length) + by * this.tables.stops.length + of];
   }
 
-  // x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set.
+  // What that of its own rate would be without joints; where no mass tells, as it is.
+  freeMobility(row) {
+    const count = this.tables.stops.length, free = this.mechanism.contacts[this.responses(count) + count * count + row];
+    return free > 0 && Number.isFinite(free) ? free : this.mobility(row, row);
+  }
+
+  // x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set. Constraints of modes
+  // are the first, in the order of their pivots. A pivot is rounding beside what W would be without joints, and beside what it
+  // was before the others.
   solveAtStops(set, b) {
-    const members = this.each((stop) => stop).filter((stop) => set[stop]), x = this.each(() => 0);
+    const all = this.each((row) => row).filter((row) => set[row]), x = this.each(() => 0);
+    const locks = all.filter((row) => this.isLock(row)), members = [...locks, ...all.filter((row) => !this.isLock(row))];
     const rows = members.map((of) => [...members.map((by) => this.mobility(of, by)), -b[of]]);
-    const least = rows.map((row, at) => 1e-10 * row[at]), isPivot = [];
-    for (let at = 0; at < rows.length; at++) {
+    const before = rows.map((row, at) => row[at]), free = members.map((row) => this.freeMobility(row));
+    const isPivot = [], isDone = [];
+    for (let turn = 0; turn < rows.length; turn++) {
+      const ratio = (at) => rows[at][at] / free[at];
+      const left = locks.map((_, at) => at).filter((at) => !isDone[at]);
+      const at = left.length ? left.reduce((most, at) => (ratio(at) > ratio(most) ? at : most)) : turn;
       const pivot = rows[at][at];
-      isPivot[at] = pivot > least[at];
+      isPivot[at] = pivot > Math.max(1e-10 * before[at], 64 * EPSILON * free[at]);
+      isDone[at] = true;
       if (!isPivot[at]) continue;
       rows.forEach((row, other) => {
         if (other === at) return;
@@ -42,7 +56,7 @@ class AtStops extends Modes {
         row.forEach((entry, column) => { row[column] = entry - factor * rows[at][column]; });
       });
     }
-    members.forEach((stop, at) => { x[stop] = isPivot[at] ? rows[at][members.length] / rows[at][at] : 0; });
+    members.forEach((row, at) => { x[row] = isPivot[at] ? rows[at][members.length] / rows[at][at] : 0; });
     return x;
   }
 
@@ -129,6 +143,16 @@ class AtStops extends Modes {
     return this.complementary(set, change, locked).map((force, stop) => this.mobility(stop, stop) * force);
   }
 
+  // The same, or nothing where modes lead to what is closed.
+  takenIfAny(closed, change, locked) {
+    if (!locked.includes(true)) return this.taken(closed, change, locked);
+    try {
+      return this.taken(closed, change, locked);
+    } catch {
+      return this.each(() => 0);
+    }
+  }
+
   // Adds what the stops do that are rested on; the growth of the responses.
   press(reactions) {
     const held = this.held();
@@ -190,9 +214,24 @@ class AtStops extends Modes {
     return forces.map((force, row) => force > 0 || (!this.isStop(row) && holds[row]));
   }
 
+  // The impulses of an impact; a stop whose gap a mode keeps throws nothing back.
+  answered(set, wanted, rates, locked, isDeep) {
+    for (const b of locked.includes(true) ? [wanted, rates] : []) {
+      try {
+        return this.complementary(set, b, locked);
+      } catch {
+        // the next one may have an answer
+      }
+    }
+    // where modes and drives lead to what is closed, it gives no impulse while it is closed within what modes may be off
+    const isLed = locked.includes(true) && !set.some((it, row) => it && isDeep(row));
+    return isLed ? this.solveAtStops(locked, rates) : this.complementary(set, wanted, locked);
+  }
+
   // The impulses at the stops that are closed at the end of a step, or that impulses close, one impact after the other.
   answer(closed, { before, now, gap, rest, shift }) {
     const change = now.map((rate, stop) => rate - before[stop]), locked = this.locked();
+    const size = largest(this.q.subarray(0, this.tables.lines));
     let impulses = this.each(() => 0), held = this.each(() => false), isImpact = false;
     for (let turn = 0; ; turn++) {
       const moved = impulses.map((impulse, stop) => impulse * shift[stop]);
@@ -207,7 +246,7 @@ class AtStops extends Modes {
         held = held.map((it, stop) => closing[stop] && it && impulses[stop] > 0);
         return { impulses, moved, gaps, isImpact, held };
       }
-      const taken = this.taken(closed, change, locked);
+      const taken = this.takenIfAny(closed, change, locked);
       const approach = turn === 0 ? now.map((rate, stop) => rate - rest[stop] * change[stop]) : rates;
       const thrown = this.rebounds(approach);
       // what closes in the last of all impacts is rested on
@@ -218,7 +257,8 @@ class AtStops extends Modes {
         const later = turn === 0 ? rest[stop] * change[stop] : 0, target = held[stop] || locked[stop] ? 0 : thrown[stop] + later;
         return rate - (target > 0 ? target : 0);
       });
-      const more = this.complementary(closing.map((it, row) => it || locked[row]), wanted, locked);
+      const isDeep = (row) => this.isStop(row) && gap[row] < -this.allowed(size, this.slope(row));
+      const more = this.answered(closing.map((it, row) => it || locked[row]), wanted, rates, locked, isDeep);
       impulses = impulses.map((impulse, stop) => impulse + more[stop]);
     }
   }
@@ -253,7 +293,7 @@ class AtStops extends Modes {
       rest,
       shift: rest.map((part, row) => (pushed[row] || this.isLock(row) ? 0 : part * this.h)),
     });
-    const locked = this.locked(), set = held.map((it, row) => it || locked[row]);
+    const locked = this.locked(), set = held.map((it, row) => it || (locked[row] && !this.isOfRates(row)));
     const shifts = this.solveAtStops(set, gaps).map((shift, stop) => moved[stop] + shift);
     const ofQ = new Float64Array(n), ofV = new Float64Array(n);
     this.addResponses(shifts, 0, ofQ);
@@ -269,11 +309,13 @@ class AtStops extends Modes {
     try {
       const hasContacts = this.tables.stops.length > 0, pushed = hasContacts ? this.push() : [];
       step();
+      // a stop may throw back what a condition has let pass
+      const { due } = this.seen();
       if (hasContacts) {
         this.strike(pushed, { t, q, v });
         this.halt(pushed, { t, q, v });
       }
-      this.passAndEngage();
+      this.passAndEngage(due);
     } catch (failure) {
       Object.assign(this, { t, steps, alarm, worstGrowth });
       this.q.set(q);
