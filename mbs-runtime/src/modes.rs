@@ -1,4 +1,4 @@
-//! Constraints of modes: which of them hold, and what enters and leaves modes.
+//! Modes at the ends of steps: what enters and leaves them, and the impulses of entering.
 //!
 //! A mode is a memory of 1 while its constraints hold. Their rows stand behind those of stops and frictions, and hold with
 //! any force: where W x + b is asked to be 0 they take part, whatever the sign of x. Where a mode is entered impulses Λ lead
@@ -101,7 +101,7 @@ pub(crate) fn left_of<T: Real>(fastest: f64) -> f64 {
 /// Leads velocities to the constraints of the modes that hold, at the start or the end of a step of `h` seconds.
 ///
 /// # Errors
-/// [`Error::Apart`], [`Error::Impact`].
+/// [`Error::Apart`], [`Error::Contradiction`].
 pub(crate) fn engage<T: Real>(
     equations: &dyn Equations<T>,
     (h, changes): (T, Changes<'_, T>),

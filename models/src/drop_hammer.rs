@@ -36,6 +36,8 @@ mechanism! {
         param no_load = 100 [rpm] where no_load > 0;
         /// Height at which the rolls open.
         param height = 1.2 [m] where height > 0;
+        /// Depth of the anvil below the rolls.
+        param depth = 1.8 [m] where depth > 0;
         /// Restitution of the blow.
         param restitution = 0.3 where restitution >= 0;
         /// Time from blow to blow.
@@ -45,19 +47,19 @@ mechanism! {
         body ram (y) { mass = mass; }
         body rolls (angle = phi) { inertia = inertia; }
         motor drive (rolls, ground) { stall = stall; no_load = no_load; }
-        stop anvil: y >= 0 [m] { restitution = restitution; }
+        let lift = y + depth;
+        stop anvil: lift >= 0 [m] { restitution = restitution; }
 
         /// 1 while the rolls grip the board.
         mode gripped { rate board: der(y) = radius*der(phi); }
         every period offset 0.5 [s] { enter gripped; }
-        when y > height { leave gripped; }
+        when lift > height { leave gripped; }
 
-        point head on ram = (0, 0.4 [m]);
-        point face on ram = (0, 0);
-        start { der(phi) = no_load; }
+        point board_end on ram = (0, depth);
+        start { y = -depth; der(phi) = no_load; }
 
         /// Height of the ram.
-        output lifted [mm] = y;
+        output lifted [mm] = lift;
         /// Speed of the rolls.
         output speed [rpm] = der(phi);
         /// Force of the rolls on the board.
