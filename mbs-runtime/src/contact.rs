@@ -246,8 +246,8 @@ impl<'a, T: Real> Contacts<'a, T> {
 }
 
 /// Gauss's elimination of the first rows, symmetric and positive semidefinite, with their right sides behind them: of some
-/// in the order of their pivots, and of the others in which they stand. A pivot is rounding beside what W would be without
-/// joints, and beside what it was before the others.
+/// in the order of their pivots, and of the others in which they stand. A pivot is rounding beside what it was before the
+/// others; of the first ones, which hold where joints may hold, too, also beside what W would be without joints.
 fn eliminate<T: Real>(
     rows: &mut [[T; MOST_CONTACTS + 1]; MOST_CONTACTS],
     [sorted, count]: [usize; 2],
@@ -266,7 +266,8 @@ fn eliminate<T: Real>(
         let at = largest.unwrap_or(turn);
         let pivot = entry(rows, at, at);
         let [before, free] = [&diagonal, free].map(|of| of.get(at).copied().unwrap_or_default());
-        let least = (share::<T>(DEPENDENT) * before).max(OPERATIONS * T::EPSILON.to_f64() * free);
+        let rounding = if at < sorted { OPERATIONS * T::EPSILON.to_f64() * free } else { 0.0 };
+        let least = (share::<T>(DEPENDENT) * before).max(rounding);
         let is_independent = pivot.to_f64() > least;
         if let (Some(is_pivot), Some(is_done)) = (is_pivot.get_mut(at), is_done.get_mut(at)) {
             (*is_pivot, *is_done) = (is_independent, true);

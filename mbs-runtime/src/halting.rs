@@ -180,7 +180,7 @@ impl<T: Real> Halting<T> {
         moved: &Each<T>,
     ) -> Each<T> {
         let held = self.halted & stuck;
-        if held | locked == 0 {
+        if held | locked | rates == 0 {
             return [T::ZERO; MOST_CONTACTS];
         }
         let changes = contacts.rates(moved);

@@ -55,9 +55,9 @@ pub(crate) fn are_met(
     off: impl Fn(usize) -> f64,
     allowed: impl Fn(usize) -> f64,
 ) -> Result<(), Error> {
-    // written so that a NaN is off
-    let is_off = |row: usize| !(off(row).abs() <= allowed(row));
-    match locks(info).find(|(row, _)| has(set, *row) && is_off(*row)) {
+    // written so that a NaN is not met
+    let is_met = |row: usize| off(row).abs() <= allowed(row);
+    match locks(info).find(|(row, _)| has(set, *row) && !is_met(*row)) {
         Some((row, lock)) => Err(Error::Apart { t, constraint: lock.name, by: off(row) }),
         None => Ok(()),
     }

@@ -115,7 +115,7 @@ mechanism! {
 fn a_pin_catches_a_bar() -> Result<(), Error> {
     let fall = (2.0_f64 / 9.81).sqrt();
     let turning = -2.0 * 9.81 * fall * 0.5 / (0.1 + 2.0 * 0.25);
-    let hung = Hung::new(HungParameters { turning, ..Hung::declared().parameters().to_owned() })?;
+    let hung = Hung::new(HungParameters { turning })?;
     let mut exact = Adaptive::builder(hung).scheme::<Dop853>().tolerances(TIGHT).build()?;
     exact.advance_to(1.9 - fall)?;
     let exact = exact.state();

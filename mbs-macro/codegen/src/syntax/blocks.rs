@@ -11,6 +11,9 @@ use super::statements::{Reader, before_block, take};
 use super::words::{block, doc, helped};
 use super::{Every, Item, ItemKind, Set, When, clocks, modes};
 
+/// The statements of a block: the words that begin them, the message for another one, and its help.
+type Statements<'a> = (fn(&Ident) -> bool, &'a str, &'a dyn Fn(&Ident) -> String);
+
 impl Reader<'_> {
     /// `every 1 [ms] offset 0.2 [ms] { set u = …; }`
     pub(super) fn every(
@@ -97,7 +100,7 @@ impl Reader<'_> {
         &mut self,
         (content, indices): (ParseStream<'_>, &Indices),
         example: &str,
-        (is_statement, others, help): (fn(&Ident) -> bool, &str, &dyn Fn(&Ident) -> String),
+        (is_statement, others, help): Statements<'_>,
         items: &mut Vec<Item>,
     ) -> Result<()> {
         block(content, example)?;

@@ -15,8 +15,8 @@ static double NAME_free_mobility(const real *contacts, int row)
 }
 
 /* x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set. Constraints of modes
-   are the first, in the order of their pivots. A pivot is rounding beside what W would be without joints, and beside what it
-   was before the others. */
+   are the first, in the order of their pivots. A pivot is rounding beside what it was before the others; of modes, which hold
+   where joints may hold, too, also beside what W would be without joints. */
 static void NAME_solve_at_stops(const real *contacts, const int *set, const real *b, real *x)
 {
     real rows[CAPS_ROWS][CAPS_ROWS + 1] = {{0}};
@@ -50,7 +50,8 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
         }
         at = at < 0 ? turn : at;
         const real pivot = rows[at][at];
-        const double shared = NAME_rounding(1e-10) * diagonal[at], least = 64.0 * (double)NAME_epsilon * free[at];
+        const double shared = NAME_rounding(1e-10) * diagonal[at];
+        const double least = at < locks ? 64.0 * (double)NAME_epsilon * free[at] : 0;
         is_pivot[at] = (double)pivot > (shared > least ? shared : least);
         is_done[at] = 1;
         for (int row = 0; is_pivot[at] && row < count; row++) {

@@ -34,8 +34,8 @@ class AtStops extends Modes {
   }
 
   // x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set. Constraints of modes
-  // are the first, in the order of their pivots. A pivot is rounding beside what W would be without joints, and beside what it
-  // was before the others.
+  // are the first, in the order of their pivots. A pivot is rounding beside what it was before the others; of modes, which hold
+  // where joints may hold, too, also beside what W would be without joints.
   solveAtStops(set, b) {
     const all = this.each((row) => row).filter((row) => set[row]), x = this.each(() => 0);
     const locks = all.filter((row) => this.isLock(row)), members = [...locks, ...all.filter((row) => !this.isLock(row))];
@@ -47,7 +47,7 @@ class AtStops extends Modes {
       const left = locks.map((_, at) => at).filter((at) => !isDone[at]);
       const at = left.length ? left.reduce((most, at) => (ratio(at) > ratio(most) ? at : most)) : turn;
       const pivot = rows[at][at];
-      isPivot[at] = pivot > Math.max(1e-10 * before[at], 64 * EPSILON * free[at]);
+      isPivot[at] = pivot > Math.max(1e-10 * before[at], at < locks.length ? 64 * EPSILON * free[at] : 0);
       isDone[at] = true;
       if (!isPivot[at]) continue;
       rows.forEach((row, other) => {
