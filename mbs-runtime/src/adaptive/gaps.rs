@@ -22,9 +22,9 @@ pub(super) struct Stopping {
     pub longest: Each<f64>,
     /// The largest coordinate at a jump so far, and at least the least size.
     pub size: f64,
-    /// The size of coordinates from which on the relative tolerance decides: at the origin nothing else tells what is
-    /// rounding.
-    pub least_size: f64,
+    /// The absolute tolerance: a flight that rises no more than a step may be off is not flown. Without restitution's loss
+    /// it would go on without end.
+    pub lowest: f64,
     /// Constraints of modes are met within this share of the size of the coordinates.
     pub closed: f64,
     /// Conditions that hold are off by this share of the largest difference of their sides.
@@ -48,7 +48,7 @@ impl Stopping {
         Self {
             longest: [0.0; MOST_CONTACTS],
             size: tolerances.atol / tolerances.rtol,
-            least_size: tolerances.atol / tolerances.rtol,
+            lowest: tolerances.atol,
             off: modes::OFF.max(0.1 * TOLERANCES * tolerances.rtol),
             closed: modes::CLOSED.max(TOLERANCES * tolerances.rtol),
             stuck: 0,

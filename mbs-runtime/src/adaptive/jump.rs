@@ -24,7 +24,7 @@ const JUMPS: f64 = 1e3;
 const RISE: f64 = 1e-18;
 /// So many impacts follow each other at once, where one lets gaps close that had begun to open.
 const IN_SEQUENCE: usize = 64;
-/// A gap that opens by no more than this share has not been left: its flight is lost in rounding.
+/// A gap that opens by no more than this share of the size of the coordinates has not been left: its flight is lost in rounding.
 const LOW: f64 = 1e-12;
 
 /// A state at stops: what a jump starts from, and what it leads to.
@@ -332,7 +332,7 @@ impl<D: Dynamics> Jump<'_, D> {
             equations.stop_laws(laws);
         }
         let law = |stop: usize, which: usize| laws.get(2 * stop + which).copied().unwrap_or_default();
-        let (lowest, slopes) = (LOW * self.size().max(stopping.least_size), self.slopes());
+        let (lowest, slopes) = (stopping.lowest.max(LOW * self.size()), self.slopes());
         loop {
             let b: Each<D::Real> = core::array::from_fn(|stop| {
                 let rate = rates.get(stop).copied().unwrap_or_default();
