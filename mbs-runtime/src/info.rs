@@ -274,6 +274,25 @@ impl Info {
         self.inputs.get(self.free_inputs().len()..).unwrap_or_default()
     }
 
+    /// The places among the inputs of those that may be set for a run: the inputs of a program, and the modes.
+    pub fn settable_inputs(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.free_inputs().len()).chain(self.modes.modes.iter().map(|mode| mode.memory))
+    }
+
+    /// The memories that tell what state a mechanism is in, by their places among the inputs: of clocks and conditions, of
+    /// stops and modes, and the directions of frictions. The forces with which frictions and modes hold are no part of it,
+    /// nor is what a run remembers of conditions.
+    pub fn told_memories(&self) -> impl Iterator<Item = usize> + use<> {
+        let (frictions, modes) = (self.frictions, self.modes);
+        let first = self.free_inputs().len();
+        let is_kept = move |at: &usize| {
+            frictions.iter().any(|friction| friction.memory + 1 == *at)
+                || modes.locks.iter().any(|lock| lock.held == *at)
+                || modes.transitions.iter().any(|transition| transition.memory == *at)
+        };
+        (first..self.inputs.len()).filter(move |at| !is_kept(at))
+    }
+
     /// The name of an event by its index: that of a declared one, or of a stop, which count down from the last of
     /// [`MOST_EVENTS`](crate::MOST_EVENTS), behind them of a friction that sticks, or the condition of a transition.
     pub fn event_name(&self, index: usize) -> Option<&'static str> {

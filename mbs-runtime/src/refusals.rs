@@ -12,10 +12,7 @@ impl Info {
     }
 
     /// Refuses constraints that come and go.
-    ///
-    /// # Errors
-    /// [`Error::Modes`].
-    pub fn refuse_modes(&self, what: &'static str) -> Result<(), Error> {
+    fn refuse_modes(&self, what: &'static str) -> Result<(), Error> {
         match (self.modes.modes.first(), self.modes.transitions.first()) {
             (Some(mode), _) => Err(Error::Modes { what, mode: mode.name }),
             (None, Some(transition)) => Err(Error::Modes { what, mode: transition.condition }),
@@ -23,23 +20,23 @@ impl Info {
         }
     }
 
-    /// Refuses friction that sticks, and modes.
+    /// Refuses friction that sticks.
     ///
     /// # Errors
-    /// [`Error::Sticks`], [`Error::Modes`].
+    /// [`Error::Sticks`].
     pub fn refuse_sticking(&self, what: &'static str) -> Result<(), Error> {
-        self.refuse_modes(what)?;
         match self.frictions.first() {
             Some(friction) => Err(Error::Sticks { what, friction: friction.name }),
             None => Ok(()),
         }
     }
 
-    /// Refuses stops and friction that sticks, for what sees neither impact nor sticking.
+    /// Refuses stops, friction that sticks and modes, for what sees none of them act.
     ///
     /// # Errors
     /// [`Error::Stops`], [`Error::Sticks`], [`Error::Modes`].
     pub fn refuse_stops(&self, what: &'static str) -> Result<(), Error> {
+        self.refuse_modes(what)?;
         self.refuse_sticking(what)?;
         match self.stops.first() {
             Some(stop) => Err(Error::Stops { what, stop: stop.name }),

@@ -41,10 +41,11 @@ pub fn switching(number: u64, text: &str) -> String {
         let (row, off) = if one == other {
             (format!("constraint c{mode}: {one} = {place}/4*(1 [m]);"), format!("{one} - {place}/4*(1 [m])"))
         } else {
-            let factor = whole(1, 2);
+            // 9/8 or 17/8: with a whole number the row of a stop depends on it where the joint is at 0, within rounding and no further
+            let factor = whole(1, 2) * 8 + 1;
             (
-                format!("rate c{mode}: der({one}) = {factor}*der({other});"),
-                format!("(der({one}) - {factor}*der({other}))*(1 [s])"),
+                format!("rate c{mode}: der({one}) = {factor}/8*der({other});"),
+                format!("(der({one}) - {factor}/8*der({other}))*(1 [s])"),
             )
         };
         modes += &format!(

@@ -10,7 +10,7 @@ use crate::chart::Chart;
 use crate::derivative::{Derivatives, Direction, Values, size_of_state};
 use crate::family::{Family, Varied};
 use crate::resting::Resting;
-use crate::stops::rested_on;
+use crate::stops::rows_at;
 use crate::{Error, OperatingPoint, Signal, Variable};
 
 /// A rate in 1/s that is slower than any mechanism.
@@ -162,16 +162,21 @@ pub fn linearize(
     ports: &Ports<'_>,
 ) -> Result<Linearization, Error> {
     point.check(mechanism)?;
-    mechanism.info().refuse_sticking("a linear system")?;
-    match rested_on(mechanism, point)?[..] {
-        [] if mechanism.info().stops.is_empty() || !ports.parameters.is_empty() => {
-            on_its_rows(mechanism, point, ports)
-        }
-        [stop, ..] if !ports.parameters.is_empty() => {
-            let what = "a linear system by parameters about a closed stop";
-            Err(mbs_runtime::Error::Stops { what, stop: mechanism.info().stops[stop].name }.into())
-        }
-        ref stops => on_its_rows(&Resting::new(mechanism, stops), point, ports),
+    let info = mechanism.info();
+    info.refuse_sticking("a linear system")?;
+    match rows_at(mechanism, point)?[..] {
+        [] if info.stops.is_empty() || !ports.parameters.is_empty() => on_its_rows(mechanism, point, ports),
+        [row, ..] if !ports.parameters.is_empty() => Err(match (info.stops.get(row), info.modes.modes) {
+            (None, [mode, ..]) => {
+                let what = "a linear system by parameters about a mode that holds";
+                mbs_runtime::Error::Modes { what, mode: mode.name }.into()
+            }
+            (stop, _) => {
+                let what = "a linear system by parameters about a closed stop";
+                mbs_runtime::Error::Stops { what, stop: stop.map_or("", |stop| stop.name) }.into()
+            }
+        }),
+        ref rows => on_its_rows(&Resting::new(mechanism, rows), point, ports),
     }
 }
 

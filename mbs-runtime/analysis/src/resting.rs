@@ -1,37 +1,38 @@
-//! A mechanism that rests on some of its stops: their gaps are constraints of it.
+//! A mechanism that rests on some of its stops, with the modes that hold: their gaps and constraints are rows of it.
 //!
-//! The memories of its stops are those of the set, whatever a run has left in them. What asks for equilibria and small motions sees one mechanism more, with a row g = 0 for each stop behind the declared
-//! ones and as many degrees of freedom less. The rows are not eliminated: responses to unit impulses along the gaps add
-//! them to what the mechanism solves without them.
+//! What asks for equilibria and small motions sees one mechanism more, with a row behind the declared ones for each constraint
+//! of a mode that holds and, behind these, a row g = 0 for each stop; and as many degrees of freedom less. The rows are not
+//! eliminated: responses to unit impulses along them add them to what the mechanism solves without them. The memories of the
+//! stops are those of the set, whatever a run has left in them.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials, lean};
-use mbs_runtime::{Constraint, Derivation, Error, Gains, Info, Real, Sketch};
+use mbs_runtime::{Constraint, Derivation, Dimension, Error, Gains, Info, Real, Sketch};
 
-/// A mechanism on some stops.
+/// A mechanism with rows among its contacts: stops, and behind all of them and frictions constraints of modes.
 pub struct Resting<'a, T: Real> {
     free: &'a dyn Described<T>,
     info: Info,
-    stops: Vec<usize>,
+    rows: Vec<usize>,
 }
 
 impl<'a, T: Real> Resting<'a, T> {
-    /// A mechanism on stops whose gaps are independent of each other and of the constraints.
-    pub fn new(free: &'a dyn Described<T>, stops: &[usize]) -> Self {
+    /// A mechanism with rows that are independent of each other and of the constraints.
+    pub fn new(free: &'a dyn Described<T>, rows: &[usize]) -> Self {
         let mut info = *free.info();
-        info.constraints = rows(&info, stops);
-        info.dof -= i32::try_from(stops.len()).unwrap_or(0);
-        Self { free, info, stops: stops.to_vec() }
+        info.constraints = constraints(&info, rows);
+        info.dof -= i32::try_from(rows.len()).unwrap_or(0);
+        Self { free, info, rows: rows.to_vec() }
     }
 
     /// The number of declared constraints.
     fn declared(&self) -> usize {
-        self.info.constraints.len() - self.stops.len()
+        self.info.constraints.len() - self.rows.len()
     }
 
-    /// Declared rows, and those of stops.
+    /// Declared rows, and those of contacts.
     fn split<'b>(&self, rows: &'b [T]) -> (&'b [T], &'b [T]) {
         rows.split_at(self.declared().min(rows.len()))
     }
@@ -40,23 +41,23 @@ impl<'a, T: Real> Resting<'a, T> {
         rows.split_at_mut(self.declared().min(rows.len()))
     }
 
-    /// Gap, rate and second derivative of the stops that are rested on.
+    /// Value, rate and second derivative of the rows of contacts.
     fn gaps(&self, at: At<'_, T>, acceleration: &[T]) -> Vec<[T; 3]> {
         let mut all = vec![T::ZERO; 3 * self.info.contacts()];
         self.free.gaps(at, acceleration, &mut all);
-        let of = |stop: &usize| [all[3 * stop], all[3 * stop + 1], all[3 * stop + 2]];
-        self.stops.iter().map(of).collect()
+        let of = |row: &usize| [all[3 * row], all[3 * row + 1], all[3 * row + 2]];
+        self.rows.iter().map(of).collect()
     }
 
-    /// Adds the responses to forces at the stops that take `short` away from each of their rows. Gives the pivot growth and the
+    /// Adds the responses to forces along the rows that take `short` away from each of their rows. Gives the pivot growth and the
     /// forces.
     fn lead(&self, t: T, q: &[T], short: &[T], to: &mut [T]) -> (T, Vec<T>) {
-        let mut forces = vec![T::ZERO; self.stops.len()];
-        let growth = lean(self.free, (t, q), &self.stops, short, (to, &mut forces));
+        let mut forces = vec![T::ZERO; self.rows.len()];
+        let growth = lean(self.free, (t, q), &self.rows, short, (to, &mut forces));
         (growth, forces)
     }
 
-    /// Adds the part of a correction that solves the rows of stops; the declared rows stay solved.
+    /// Adds the part of a correction that solves the rows of contacts; the declared rows stay solved.
     fn correct(&self, t: T, q: &[T], residual: &[T], to: &mut [T]) -> T {
         let still = vec![T::ZERO; q.len()];
         let rates = |v: &[T]| self.gaps(At { t, q, v }, &still);
@@ -70,41 +71,49 @@ impl<'a, T: Real> Resting<'a, T> {
     fn resting_inputs(&self, inputs: &[T]) -> Vec<T> {
         let mut inputs = inputs.to_vec();
         for (at, stop) in self.info.stops.iter().enumerate() {
-            inputs[stop.memory] = T::from_f64(f64::from(u8::from(self.stops.contains(&at))));
+            inputs[stop.memory] = T::from_f64(f64::from(u8::from(self.rows.contains(&at))));
         }
         inputs
     }
 
-    /// q̈ with γ + `feedback` below, and the forces at the stops.
+    /// q̈ with γ + `feedback` below, and the forces along the rows.
     fn solved(&self, at: At<'_, T>, inputs: &[T], feedback: &[T], a: &mut [T]) -> (T, Vec<T>) {
-        let (declared, of_stops) = self.split(feedback);
+        let (declared, of_rows) = self.split(feedback);
         let growth = self.free.accelerations(at, inputs, declared, a);
-        let gaps = self.gaps(at, a).into_iter().zip(of_stops);
+        let gaps = self.gaps(at, a).into_iter().zip(of_rows);
         let short: Vec<T> = gaps.map(|(gap, feedback)| gap[2] - *feedback).collect();
         let (more, forces) = self.lead(at.t, at.q, &short, a);
         (growth + more, forces)
     }
 }
 
-/// The constraints of a mechanism on some stops. They are kept as long as the program, once for each set of stops, as are
+/// The constraints of a mechanism with some rows. They are kept as long as the program, once for each set of rows, as are
 /// the texts of mechanisms.
-fn rows(info: &Info, stops: &[usize]) -> &'static [Constraint] {
-    type Known = BTreeMap<(usize, Vec<usize>), &'static [Constraint]>;
+fn constraints(info: &Info, rows: &[usize]) -> &'static [Constraint] {
+    type Known = BTreeMap<([usize; 2], Vec<usize>), &'static [Constraint]>;
     static KNOWN: OnceLock<Mutex<Known>> = OnceLock::new();
     let known = KNOWN.get_or_init(Mutex::default);
     let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
-    let key = (info.stops.as_ptr().addr(), stops.to_vec());
+    // a row is of a list that is not empty, and has a place in memory of its own
+    let key = ([info.stops.as_ptr().addr(), info.modes.locks.as_ptr().addr()], rows.to_vec());
     known.entry(key).or_insert_with(|| {
-        let of_stops = stops.iter().filter_map(|stop| info.stops.get(*stop)).map(|stop| Constraint {
-            name: stop.name,
-            doc: stop.doc,
-            formula: stop.formula,
-            is_drive: false,
-            is_rate: false,
-            dimension: stop.dimension,
-        });
-        Vec::leak(info.constraints.iter().copied().chain(of_stops).collect())
+        let more = rows.iter().filter_map(|row| constraint(info, *row));
+        Vec::leak(info.constraints.iter().copied().chain(more).collect())
     })
+}
+
+/// A row among the contacts as a constraint.
+fn constraint(info: &Info, row: usize) -> Option<Constraint> {
+    let [is_drive, is_rate] = [false; 2];
+    if let Some(stop) = info.stops.get(row) {
+        let (name, doc, formula, dimension) = (stop.name, stop.doc, stop.formula, stop.dimension);
+        return Some(Constraint { name, doc, formula, is_drive, is_rate, dimension });
+    }
+    let lock = info.modes.locks.get(row.checked_sub(info.stops.len() + info.frictions.len())?)?;
+    let (name, formula, is_rate) = (lock.name, lock.formula, lock.is_rate);
+    // λ does work on Φ
+    let dimension = Dimension::of(1, 2, -2).over(info.inputs.get(lock.held)?.dimension);
+    Some(Constraint { name, doc: "", formula, is_drive, is_rate, dimension })
 }
 
 impl<T: Real> Equations<T> for Resting<'_, T> {
@@ -113,18 +122,18 @@ impl<T: Real> Equations<T> for Resting<'_, T> {
     }
 
     fn phi(&self, t: T, q: &[T], phi: &mut [T]) {
-        let (declared, of_stops) = self.split_mut(phi);
+        let (declared, of_rows) = self.split_mut(phi);
         self.free.phi(t, q, declared);
         let still = vec![T::ZERO; q.len()];
         let gaps = self.gaps(At { t, q, v: &still }, &still);
-        of_stops.iter_mut().zip(gaps).for_each(|(phi, gap)| *phi = gap[0]);
+        of_rows.iter_mut().zip(gaps).for_each(|(phi, gap)| *phi = gap[0]);
     }
 
     fn phi_dot(&self, at: At<'_, T>, phi_dot: &mut [T]) {
-        let (declared, of_stops) = self.split_mut(phi_dot);
+        let (declared, of_rows) = self.split_mut(phi_dot);
         self.free.phi_dot(at, declared);
         let gaps = self.gaps(at, &vec![T::ZERO; at.q.len()]);
-        of_stops.iter_mut().zip(gaps).for_each(|(phi_dot, gap)| *phi_dot = gap[1]);
+        of_rows.iter_mut().zip(gaps).for_each(|(phi_dot, gap)| *phi_dot = gap[1]);
     }
 
     fn complete(&self, states: At<'_, T>, q: &mut [T], v: &mut [T]) {
@@ -163,18 +172,18 @@ impl<T: Real> Equations<T> for Resting<'_, T> {
     }
 
     fn position_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T {
-        let (declared, of_stops) = self.split(residual);
-        self.free.position_correction(t, q, declared, correction) + self.correct(t, q, of_stops, correction)
+        let (declared, of_rows) = self.split(residual);
+        self.free.position_correction(t, q, declared, correction) + self.correct(t, q, of_rows, correction)
     }
 
     fn velocity_correction(&self, t: T, q: &[T], residual: &[T], correction: &mut [T]) -> T {
-        let (declared, of_stops) = self.split(residual);
-        self.free.velocity_correction(t, q, declared, correction) + self.correct(t, q, of_stops, correction)
+        let (declared, of_rows) = self.split(residual);
+        self.free.velocity_correction(t, q, declared, correction) + self.correct(t, q, of_rows, correction)
     }
 
     fn projection(&self, t: T, q: &[T], violation: &[T], correction: &mut [T]) -> T {
-        let (declared, of_stops) = self.split(violation);
-        self.free.projection(t, q, declared, correction) + self.correct(t, q, of_stops, correction)
+        let (declared, of_rows) = self.split(violation);
+        self.free.projection(t, q, declared, correction) + self.correct(t, q, of_rows, correction)
     }
 
     fn worst_pivot(&self, t: T, q: &[T]) -> Option<(usize, T)> {
@@ -203,9 +212,9 @@ impl<T: Real> Equations<T> for Resting<'_, T> {
         let inputs = self.resting_inputs(inputs);
         let none = vec![T::ZERO; self.info.constraints.len()];
         let (_, forces) = self.solved(at, &inputs, &none, acceleration);
-        let (declared, of_stops) = self.split_mut(multipliers);
-        // M q̈ + Φ_qᵀ λ = Q, where stops push
-        of_stops.iter_mut().zip(forces).for_each(|(multiplier, force)| *multiplier = -force);
+        let (declared, of_rows) = self.split_mut(multipliers);
+        // M q̈ + Φ_qᵀ λ = Q, where forces act along rows
+        of_rows.iter_mut().zip(forces).for_each(|(multiplier, force)| *multiplier = -force);
         self.free.reactions(at, &inputs, acceleration, declared)
     }
 
@@ -293,7 +302,7 @@ impl Differentiable for Resting<'_, f64> {
         what: &mut dyn FnMut(&dyn Described<Partials>),
     ) -> Result<(), Error> {
         match self.free.differentiable() {
-            Some(free) => free.with_partials(parameters, &mut |free| what(&Resting::new(free, &self.stops))),
+            Some(free) => free.with_partials(parameters, &mut |free| what(&Resting::new(free, &self.rows))),
             None => Ok(()),
         }
     }

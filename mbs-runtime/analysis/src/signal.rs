@@ -176,11 +176,37 @@ impl Signal {
         .concat()
     }
 
+    /// The memories that tell what state a mechanism is in, but for those of which an output has the name.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_analysis::Signal;
+    /// # use mbs_runtime::{Mechanism, mechanism};
+    /// # mechanism! {
+    /// #     pub Ball {
+    /// #         dof = 1;
+    /// #         body ball (y) { mass = 2 [kg]; }
+    /// #         stop floor: y >= 0 [m] { restitution = 0.7; }
+    /// #     }
+    /// # }
+    /// let memories = Signal::memories(<Ball as Mechanism>::INFO);
+    /// let names: Vec<&str> = memories.iter().map(|signal| signal.name.as_str()).collect();
+    /// assert_eq!(names, ["floor", "floor_impulse"]);
+    /// ```
+    pub fn memories(info: &Info) -> Vec<Self> {
+        let is_output = |signal: &Self| info.outputs.iter().any(|output| output.name == signal.name);
+        let memories = info.told_memories().filter_map(|at| Self::of(info, Variable::Input(at)));
+        memories.filter(|signal| !is_output(signal)).collect()
+    }
+
     /// The inputs with these names, or all.
     pub(crate) fn inputs(info: &Info, names: Option<&[String]>) -> Result<Vec<Self>, Error> {
-        // a stop sets its memories at impacts, between which they change nothing
+        // stops and modes set their memories where something jumps, and in between these change nothing
+        let first = info.free_inputs().len();
         let of_stop = |at: usize| info.stops.iter().any(|stop| stop.memory == at || stop.memory + 1 == at);
-        let places = (0..info.inputs.len()).filter(|at| !of_stop(*at));
+        let of_mode = |at: usize| info.modes.modes.iter().any(|mode| mode.memory == at);
+        let memories = info.told_memories().filter(|at| !of_stop(*at) && !of_mode(*at));
+        let places = (0..first).chain(memories);
         let all: Vec<Self> = places.filter_map(|at| Self::of(info, Variable::Input(at))).collect();
         names.map_or(Ok(all.clone()), |names| chosen("input", &all, names))
     }

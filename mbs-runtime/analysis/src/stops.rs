@@ -1,8 +1,9 @@
-//! The stops that a mechanism rests on, and positions behind stops.
+//! The stops that a mechanism rests on, the constraints of modes that hold, and positions off them.
 
 use std::collections::BTreeSet;
 
 use mbs_runtime::equations::{At, Described, are_independent};
+use mbs_runtime::{DeclaredLock, Info};
 
 use crate::resting::Resting;
 use crate::{Error, OperatingPoint};
@@ -14,16 +15,58 @@ const PULLS: f64 = 1e-9;
 /// So many sets of stops are tried.
 const MOST_SETS: usize = 256;
 
-/// The gaps of a position, and the size of what counts.
-fn gaps(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
+/// The values of all contacts at a position, and the size of what counts.
+fn contacts(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
     let still = vec![0.0; q.len()];
     let mut gaps = vec![0.0; 3 * mechanism.info().contacts()];
     mechanism.gaps(At { t, q, v: &still }, &still, &mut gaps);
     let declared = mechanism.info().coordinates.iter().map(|q| q.default);
     let size = q.iter().copied().chain(declared).fold(0.0_f64, |size, x| size.max(x.abs()));
     // each has its rate and its second derivative behind it
-    let stops = mechanism.info().stops.len();
-    (gaps.into_iter().step_by(3).take(stops).collect(), CLOSED * size)
+    (gaps.into_iter().step_by(3).collect(), CLOSED * size)
+}
+
+/// The gaps of a position, and the size of what counts.
+fn gaps(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
+    let (mut gaps, size) = contacts(mechanism, t, q);
+    gaps.truncate(mechanism.info().stops.len());
+    (gaps, size)
+}
+
+/// The rows of the modes that hold, with their names.
+fn locked(info: &Info, inputs: &[f64]) -> impl Iterator<Item = (usize, &'static DeclaredLock)> {
+    let locks = (info.stops.len() + info.frictions.len()..).zip(info.modes.locks);
+    locks.filter(|(_, lock)| inputs.get(lock.mode).is_some_and(|mode| *mode > 0.5))
+}
+
+/// The rows of the modes that hold, as far as they are independent of each other and of the constraints at a position.
+pub fn held_rows(mechanism: &dyn Described<f64>, (t, q): (f64, &[f64]), inputs: &[f64]) -> Vec<usize> {
+    let mut rows = Vec::new();
+    for (row, _) in locked(mechanism.info(), inputs) {
+        rows.push(row);
+        if !are_independent(mechanism, (t, q), &rows) {
+            rows.pop();
+        }
+    }
+    rows
+}
+
+/// Refuses a position that is off a constraint of a mode that holds.
+///
+/// # Errors
+/// [`Apart`](mbs_runtime::Error::Apart).
+pub fn meets_modes(
+    mechanism: &dyn Described<f64>,
+    (t, q): (f64, &[f64]),
+    inputs: &[f64],
+) -> Result<(), Error> {
+    let (values, size) = contacts(mechanism, t, q);
+    let off = |row: usize| values.get(row).copied().unwrap_or(0.0);
+    // written so that a NaN is off
+    match locked(mechanism.info(), inputs).find(|(row, _)| !(off(*row).abs() <= size)) {
+        Some((row, lock)) => Err(mbs_runtime::Error::Apart { t, constraint: lock.name, by: off(row) }.into()),
+        None => Ok(()),
+    }
 }
 
 /// A position that was found on a set of stops.
@@ -39,13 +82,14 @@ pub struct Found<R> {
 /// The stops that are rested on, and what is found there: none pulls, and no other gap is negative. `look` looks on a set.
 ///
 /// Sets are tried one after the other. A position behind a stop leads to the set with this stop, a stop that pulls to the set
-/// without it. Where that finds nothing, all sets are tried, from the smallest ones on.
+/// without it. Where that finds nothing, all sets are tried, from the smallest ones on. The rows of modes that hold, `held`, are
+/// in every set.
 ///
 /// # Errors
 /// Those of `look` without stops; [`Behind`](mbs_runtime::Error::Behind).
 pub fn complementary<R>(
     mechanism: &dyn Described<f64>,
-    t: f64,
+    (t, held): (f64, &[usize]),
     mut look: impl FnMut(&dyn Described<f64>) -> Result<Found<R>, Error>,
 ) -> Result<(Vec<usize>, R), Error> {
     let count = mechanism.info().stops.len();
@@ -56,7 +100,9 @@ pub fn complementary<R>(
         let Some(set) = next.take().or_else(|| all.find(|set| !tried.contains(set))) else { break };
         tried.insert(set.clone());
         let stops: Vec<usize> = set.iter().copied().collect();
-        match look(&Resting::new(mechanism, &stops)).and_then(|found| judged(mechanism, t, &stops, found)) {
+        let rows = [held, &stops].concat();
+        let judged = |found| judged(mechanism, t, (&rows, &stops), found);
+        match look(&Resting::new(mechanism, &rows)).and_then(judged) {
             Ok(Verdict::Rests(result)) => return Ok((stops, result)),
             Ok(Verdict::Leads(changed, behind)) => {
                 first.get_or_insert(behind);
@@ -82,7 +128,7 @@ enum Verdict<R> {
 fn judged<R>(
     mechanism: &dyn Described<f64>,
     t: f64,
-    stops: &[usize],
+    (rows, stops): (&[usize], &[usize]),
     Found { result, q, multipliers }: Found<R>,
 ) -> Result<Verdict<R>, Error> {
     let (gaps, size) = gaps(mechanism, t, &q);
@@ -90,8 +136,8 @@ fn judged<R>(
         let name = mechanism.info().stops[stop].name;
         Error::from(mbs_runtime::Error::Behind { t, stop: name, gap: gaps[stop] })
     };
-    if !are_independent(mechanism, (t, &q), stops) {
-        return Err(behind(stops.first().copied().unwrap_or(0)));
+    if let Some(stop) = stops.first().filter(|_| !are_independent(mechanism, (t, &q), rows)) {
+        return Err(behind(*stop));
     }
     let mut set: BTreeSet<usize> = stops.iter().copied().collect();
     // a multiplier is minus what a stop pushes with
@@ -121,31 +167,36 @@ fn subsets(count: usize, most: usize) -> impl Iterator<Item = BTreeSet<usize>> {
     })
 }
 
-/// The stops on which a point rests: those that are closed there, if all of them push.
+/// The rows beside the constraints at a point: of the modes that hold, and of the stops that are closed there, if all of them
+/// push.
 ///
 /// # Errors
-/// A point behind a stop, or that touches one which does not push: what is beside it is not linear.
-pub fn rested_on(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result<Vec<usize>, Error> {
+/// A point behind a stop, or that touches one which does not push: what is beside it is not linear; one that is off a
+/// constraint of a mode that holds.
+pub fn rows_at(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result<Vec<usize>, Error> {
     let (t, q) = (point.t, &point.q[..]);
     let (gaps, size) = gaps(mechanism, t, q);
     let info = mechanism.info();
     if let Some(stop) = (0..gaps.len()).find(|stop| gaps[*stop] < -size) {
         return Err(mbs_runtime::Error::Behind { t, stop: info.stops[stop].name, gap: gaps[stop] }.into());
     }
+    meets_modes(mechanism, (t, q), &point.inputs)?;
+    let held = held_rows(mechanism, (t, q), &point.inputs);
     let closed: Vec<usize> = (0..gaps.len()).filter(|stop| gaps[*stop] <= size).collect();
-    let Some(first) = closed.first() else { return Ok(closed) };
-    let resting = Resting::new(mechanism, &closed);
-    let (mut a, mut multipliers) = (vec![0.0; q.len()], vec![0.0; info.constraints.len() + closed.len()]);
+    let Some(first) = closed.first() else { return Ok(held) };
+    let rows = [&held[..], &closed].concat();
+    let resting = Resting::new(mechanism, &rows);
+    let (mut a, mut multipliers) = (vec![0.0; q.len()], vec![0.0; info.constraints.len() + rows.len()]);
     resting.reactions(At { t, q, v: &point.v }, &point.inputs, &mut a, &mut multipliers);
-    let of_stops = &multipliers[info.constraints.len()..];
+    let of_stops = &multipliers[info.constraints.len() + held.len()..];
     let largest = of_stops.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     let pushes = |at: &usize| of_stops[*at] < -PULLS * largest;
     let loose = (0..closed.len()).find(|at| !pushes(at));
     match loose
         .map(|at| closed[at])
-        .or_else(|| (!are_independent(mechanism, (t, q), &closed)).then_some(*first))
+        .or_else(|| (!are_independent(mechanism, (t, q), &rows)).then_some(*first))
     {
-        None => Ok(closed),
+        None => Ok(rows),
         Some(stop) => {
             let what = "a linear system about a position that touches a stop without force";
             Err(mbs_runtime::Error::Stops { what, stop: info.stops[stop].name }.into())

@@ -49,8 +49,13 @@ impl Mechanism {
             Stability::Unstable { directions } => ("unstable", directions),
         };
         let rows = info.constraints.iter().zip(&rest.multipliers);
+        let of_modes = rest.held.iter().filter_map(|(at, value)| {
+            let lock = info.modes.locks.get(*at)?;
+            Some((lock.name, *value, Unit::of(info.inputs.get(lock.held)?).name().to_owned()))
+        });
         let reactions: Values = rows
             .map(|(row, value)| (row.name, *value, Unit::of_multiplier(row.dimension).name().to_owned()))
+            .chain(of_modes)
             .collect();
         let shown_all = PyDict::new(py);
         shown_all.set_item("t", rest.t)?;
@@ -76,8 +81,8 @@ impl Mechanism {
 impl Mechanism {
     fn at_rest(&self, options: &RunOptions, about: &About) -> Result<Found, Error> {
         let model = self.model.as_ref();
-        let run = model.start(&Start::of(model, &options.values(model)?)?)?;
-        let rest = equilibrium(run.described(), &about.search(&*run)?)?;
+        let (run, search) = about.search(model, &Start::of(model, &options.values(model)?)?)?;
+        let rest = equilibrium(run.described(), &search)?;
         let (still, point) = (vec![0.0; rest.q.len()], OperatingPoint::from(&rest));
         let at = At { t: rest.t, q: &point.q, v: &point.v };
         let mut outputs = vec![f64::NAN; model.info().outputs.len()];

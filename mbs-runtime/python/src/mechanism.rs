@@ -90,6 +90,8 @@ impl Mechanism {
         found.set_item("parameters", described(info.parameters, Unit::of))?;
         found.set_item("inputs", described(info.free_inputs(), Unit::of))?;
         found.set_item("memories", described(info.memories(), Unit::of))?;
+        let modes: Vec<_> = info.modes.modes.iter().map(|mode| mode.name).collect();
+        found.set_item("modes", modes)?;
         let (coordinates, states) = info.coordinates.split_at(info.lines.min(info.coordinates.len()));
         found.set_item("coordinates", described(coordinates, Unit::of_coordinate))?;
         found.set_item("states", described(states, Unit::of))?;

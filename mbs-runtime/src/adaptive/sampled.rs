@@ -87,6 +87,8 @@ pub enum Measured {
     Output(usize),
     /// The multiplier of a constraint.
     Multiplier(usize),
+    /// An input or a memory.
+    Input(usize),
 }
 
 impl Threshold {
@@ -95,6 +97,9 @@ impl Threshold {
         let found = match self.measured {
             Measured::Position(index) => at.q.get(index).copied(),
             Measured::Velocity(index) => at.v.get(index).copied(),
+            Measured::Input(index) => {
+                dynamics.with_inputs(&mut inputs.clone(), |inputs| inputs.get(index).copied())
+            }
             Measured::Output(_) | Measured::Multiplier(_) => {
                 let (mut a, mut multipliers) = (dynamics.declared_start().1, dynamics.no_feedback());
                 let mut outputs = [D::Real::from_f64(f64::NAN); MOST_EVENTS];

@@ -9,6 +9,7 @@ pub(crate) struct Instant {
     pub acceleration: Vec<f64>,
     pub multipliers: Vec<f64>,
     pub outputs: Vec<f64>,
+    pub inputs: Vec<f64>,
 }
 
 impl Instant {
@@ -20,12 +21,14 @@ impl Instant {
             acceleration: coordinates(),
             multipliers: vec![0.0; info.constraints.len()],
             outputs: vec![0.0; info.outputs.len()],
+            inputs: vec![0.0; info.inputs.len()],
         }
     }
 
-    /// Takes the state.
+    /// Takes the state, with memories.
     pub fn see(&mut self, run: &dyn System) {
         run.state(&mut self.q, &mut self.v);
+        run.inputs(&mut self.inputs);
     }
 
     /// Takes accelerations and multipliers.

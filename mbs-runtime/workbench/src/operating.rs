@@ -65,20 +65,29 @@ pub struct Operating<'a> {
 }
 
 impl About {
-    /// How an equilibrium of a run that begins is looked for.
+    /// A run at its start, and how an equilibrium is looked for from there. Modes that are set hold in the search and not in
+    /// the run: the search closes their joints.
     ///
     /// # Errors
     /// Values that cannot be read, coordinates that the mechanism does not have, positions from which it cannot
     /// be assembled.
-    pub fn search(&self, run: &dyn System) -> Result<Search, Error> {
+    pub fn search(&self, model: &dyn Model, start: &Start) -> Result<(Box<dyn System>, Search), Error> {
+        let mut as_declared = start.clone();
+        let of_modes = || model.info().modes.modes.iter().map(|mode| mode.memory);
+        of_modes().for_each(|at| as_declared.inputs[at] = model.info().inputs[at].default);
+        let run = model.start(&as_declared)?;
         let t = match &self.at {
             Some(text) => quantity::parse("at", text, TIME)?,
             None => run.time(),
         };
         let mut inputs = vec![0.0; run.equations().info().inputs.len()];
         run.inputs(&mut inputs);
+        for at in of_modes().filter(|at| start.inputs[*at] != as_declared.inputs[*at]) {
+            inputs[at] = start.inputs[at];
+        }
         let strategy = if self.is_relaxed { Strategy::Relaxation } else { Strategy::Automatic };
-        Ok(Search { from: Some(positions(run, t, &self.from)?), inputs: Some(inputs), t, strategy })
+        let from = Some(positions(&*run, t, &self.from)?);
+        Ok((run, Search { from, inputs: Some(inputs), t, strategy }))
     }
 }
 
@@ -129,8 +138,7 @@ impl<'a> Operating<'a> {
             let point = OperatingPoint::of_run(&*run);
             return Ok(Self { name, model, run, point, rest: None, search: Search::default(), start });
         }
-        let run = model.start(&start)?;
-        let search = about.search(&*run)?;
+        let (run, search) = about.search(model, &start)?;
         let rest = if about.is_here { None } else { Some(equilibrium(run.described(), &search)?) };
         let from = search.from.as_deref().unwrap_or(&[]);
         // memories are those that the start leaves

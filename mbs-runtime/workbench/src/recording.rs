@@ -32,12 +32,14 @@ pub const MOST_OCCURRENCES: usize = 100_000;
 /// The result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
-    /// Time first, then coordinates, velocities, multipliers, outputs, violation.
+    /// Time first, then coordinates, velocities, multipliers, outputs, memories, violation.
     pub columns: Vec<Column>,
     /// How many of the columns after time are coordinates, or integrals of own states.
     pub coordinates: usize,
     /// How many of these are coordinates of bodies.
     pub lines: usize,
+    /// How many of the columns, before that of the violation, are memories.
+    pub memories: usize,
     /// The summary.
     pub summary: Summary,
     /// The events that it came to, in their order; at most [`MOST_OCCURRENCES`].
@@ -61,6 +63,7 @@ impl Recording {
             columns: columns(info),
             coordinates: info.coordinates.len(),
             lines: info.lines,
+            memories: Signal::memories(info).len(),
             summary: Summary::default(),
             occurrences: Vec::new(),
             unmet: None,
@@ -68,6 +71,12 @@ impl Recording {
             doubts: Vec::new(),
             notes: Vec::new(),
         }
+    }
+
+    /// The places of the columns of memories.
+    pub(crate) fn of_memories(&self) -> std::ops::Range<usize> {
+        let end = self.columns.len().saturating_sub(1);
+        end.saturating_sub(self.memories)..end
     }
 
     /// The column called `name`.
@@ -101,16 +110,17 @@ impl Recording {
 /// The columns of a recording, empty.
 pub(crate) fn columns(info: &Info) -> Vec<Column> {
     let mut columns = vec![Column::new("t", "s")];
-    let state = |signal: Signal| {
+    let column = |signal: Signal| {
         let unit = Unit::of_signal(info, &signal);
         Column::new(signal.name, unit.name())
     };
-    columns.extend(Signal::states(info).into_iter().map(state));
+    columns.extend(Signal::states(info).into_iter().map(column));
     let multiplier = |row: &Constraint| {
         Column::new(format!("lambda({})", row.name), Unit::of_multiplier(row.dimension).name())
     };
     columns.extend(info.constraints.iter().map(multiplier));
     columns.extend(info.outputs.iter().map(|output| Column::new(output.name, Unit::of(output).name())));
+    columns.extend(Signal::memories(info).into_iter().map(column));
     columns.push(Column::new("violation", "SI"));
     columns
 }

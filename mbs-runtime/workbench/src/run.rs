@@ -1,6 +1,6 @@
 //! Runs of a mechanism, recorded.
 
-use mbs_analysis::Signal;
+use mbs_analysis::{Signal, Variable};
 use mbs_runtime::equations::At;
 use mbs_runtime::{Info, System};
 
@@ -156,6 +156,8 @@ struct Recorder {
     columns: Vec<Column>,
     /// Those of coordinates, rates and own states.
     units: Vec<Unit>,
+    /// The memories that have a column: their places among the inputs, and their units.
+    memories: Vec<(usize, Unit)>,
     summary: Summary,
     watch: Watch,
     /// The size of the mechanism at the start in m.
@@ -182,11 +184,17 @@ impl Recorder {
         let watch = Watch::new(info, model.derivation(), size);
         let phi = vec![0.0; info.constraints.len()];
         let units = Signal::states(info).iter().map(|signal| Unit::of_signal(info, signal)).collect();
+        let memory = |signal: &Signal| match signal.variable {
+            Variable::Input(at) => Some((at, Unit::of_signal(info, signal))),
+            _ => None,
+        };
+        let memories = Signal::memories(info).iter().filter_map(memory).collect();
         let (columns, until, occurrences) = (columns(info), until.cloned(), Vec::new());
         Self {
             info,
             columns,
             units,
+            memories,
             summary,
             watch,
             size,
@@ -305,7 +313,7 @@ impl Recorder {
     }
 
     fn append_row(&mut self, run: &dyn System) -> Result<(), mbs_runtime::Error> {
-        let Self { info, columns, now, reactions, size, units, .. } = self;
+        let Self { info, columns, now, reactions, size, units, memories, .. } = self;
         now.solve(run)?;
         reactions.see(run, now, *size);
         // what is not finite is shown as it is, and doubted
@@ -314,8 +322,11 @@ impl Recorder {
             now.outputs.iter().zip(info.outputs).map(|(value, output)| Unit::of(output).shown(*value));
         let states = now.q.iter().chain(&now.v).zip(&*units).map(|(value, unit)| unit.shown(*value));
         let numbers = states.chain(now.multipliers.iter().copied());
+        let memory =
+            |(at, unit): &(usize, Unit)| now.inputs.get(*at).map_or(f64::NAN, |value| unit.shown(*value));
         let [violation, _] = run.violations();
-        let row = [run.time()].into_iter().chain(numbers).chain(outputs).chain([violation]);
+        let row = [run.time()].into_iter().chain(numbers).chain(outputs);
+        let row = row.chain(memories.iter().map(memory)).chain([violation]);
         for (column, value) in columns.iter_mut().zip(row) {
             column.values.push(value);
         }
@@ -342,9 +353,9 @@ impl Recorder {
             .as_ref()
             .filter(|until| !is_met(until))
             .map(|until| Unmet { condition: until.text.clone(), holds_at_start: self.holds_at_start });
-        let Self { columns, occurrences, .. } = self;
-        let notes = Vec::new();
-        Recording { columns, coordinates, lines, summary, occurrences, unmet, ended, doubts, notes }
+        let Self { columns, memories, occurrences, .. } = self;
+        let (memories, notes) = (memories.len(), Vec::new());
+        Recording { columns, coordinates, lines, memories, summary, occurrences, unmet, ended, doubts, notes }
     }
 }
 

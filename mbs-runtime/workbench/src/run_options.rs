@@ -6,6 +6,7 @@
 use mbs_runtime::{Dimension, Info, Quantity, SCHEMES, Stabilization, Tableau, Tolerances};
 
 use crate::quantity::TIME;
+use crate::start::settable;
 use crate::{Error, Model, OtherMethod, Settings, Signals, Start, StartKind, StartState, Until, quantity};
 
 const NUMBER: Dimension = Dimension::of(0, 0, 0);
@@ -99,7 +100,7 @@ impl RunOptions {
     /// that has both a value and a signal.
     pub fn values(&self, model: &dyn Model) -> Result<Settings, Error> {
         let info = model.info();
-        let inputs = assignments("input", info.free_inputs(), &self.inputs)
+        let inputs = assignments("input", &settable(info), &self.inputs)
             .map_err(|error| of_clocks(error, info, &self.inputs))?;
         if let Some(signals) = &self.signals {
             not_twice(signals, &inputs)?;

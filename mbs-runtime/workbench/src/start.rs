@@ -25,8 +25,7 @@ impl Start {
         let [alpha, beta] = method.deadbeat(step);
         let start = Self {
             parameters,
-            inputs: [assigned("input", info.free_inputs(), &settings.inputs)?, defaults(info.memories())]
-                .concat(),
+            inputs: inputs(info, &settings.inputs)?,
             table: settings
                 .signals
                 .as_ref()
@@ -143,6 +142,30 @@ fn assigned(
         *place(kind, quantities, name, &mut values)? = *value;
     }
     Ok(values)
+}
+
+/// The inputs with values that are set, and memories as they are declared. A mode may be set, too: 1 where it holds from
+/// the start, else 0.
+fn inputs(info: &Info, settings: &[(String, f64)]) -> Result<Vec<f64>, Error> {
+    let known = settable(info);
+    let is_mode = |name: &str| info.modes.modes.iter().any(|mode| mode.name == name);
+    if let Some((name, value)) =
+        settings.iter().find(|(name, value)| is_mode(name) && value * value != *value)
+    {
+        let reason = format!("a mode holds, 1, or does not, 0, and cannot be {value}");
+        return Err(Error::Name { name: name.clone(), reason });
+    }
+    let given = assigned("input", &known, settings)?;
+    let mut inputs = defaults(info.inputs);
+    for (at, value) in info.settable_inputs().zip(given) {
+        inputs[at] = value;
+    }
+    Ok(inputs)
+}
+
+/// The inputs that may be set for a run, with modes.
+pub(crate) fn settable(info: &Info) -> Vec<Quantity> {
+    info.settable_inputs().filter_map(|at| info.inputs.get(at).copied()).collect()
 }
 
 /// The declared values.

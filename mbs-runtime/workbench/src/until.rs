@@ -1,7 +1,7 @@
 //! `--until 'x3 > 200mm'`, `--until impact`: a value or an event at which a run ends.
 
 use mbs_analysis::{Signal, Variable};
-use mbs_runtime::{Dimension, Direction, Info, Measured, Threshold};
+use mbs_runtime::{Dimension, Direction, Info, MOST_EVENTS, Measured, Threshold};
 
 use crate::instant::Instant;
 use crate::{Error, Unit, quantity};
@@ -20,24 +20,26 @@ pub struct Until {
 pub enum Ending {
     /// Where a comparison becomes true.
     Threshold(Threshold),
-    /// At the declared event in this place.
+    /// At the event of this index.
     Event(usize),
 }
 
 impl Until {
-    /// The name of a declared event, that of a mode, which ends the run where it is entered, or a condition of the form `x3 > 200mm`: a coordinate, the rate
-    /// `der(…)` of one, an output, or the multiplier `lambda(…)` of a constraint, and a value with an optional
-    /// unit.
+    /// The name of a declared event; that of a mode or a stop, which ends the run where it is entered or hit; or a condition
+    /// of the form `x3 > 200mm`: a coordinate, the rate `der(…)` of one, an output, a memory, or the multiplier `lambda(…)`
+    /// of a constraint, and a value with an optional unit.
     ///
     /// # Errors
     /// Another form, a name that the mechanism does not have, a value of another dimension.
     pub fn parse(info: &Info, text: &str) -> Result<Self, Error> {
         let text = text.trim();
-        if let Some(at) = info.events.iter().position(|event| event.name == text) {
+        let stops = (0..MOST_EVENTS).rev().take(info.stops.len());
+        let mut events = (0..info.events.len()).chain(stops);
+        if let Some(at) = events.find(|event| info.event_name(*event) == Some(text)) {
             return Ok(Self { text: text.to_owned(), ending: Ending::Event(at) });
         }
         if let Some(entered) = entered(info, of_mode(text)) {
-            return Ok(Self { text: text.to_owned(), ending: Ending::Threshold(entered?) });
+            return Ok(Self { text: text.to_owned(), ending: Ending::Threshold(entered) });
         }
         let Some(at) = text.find(['<', '>']) else { return Err(no_condition(info, text)) };
         let (name, rest) = text.split_at(at);
@@ -65,6 +67,7 @@ impl Until {
             Measured::Velocity(at) => now.v.get(at),
             Measured::Output(at) => now.outputs.get(at),
             Measured::Multiplier(at) => now.multipliers.get(at),
+            Measured::Input(at) => now.inputs.get(at),
         };
         found.map_or(f64::NAN, |found| match direction {
             Direction::Falling => value - found,
@@ -79,28 +82,22 @@ fn of_mode(text: &str) -> &str {
     named.map_or(text, str::trim)
 }
 
-/// Where a mode of this name is entered, if there is one: its output tells.
-fn entered(info: &Info, name: &str) -> Option<Result<Threshold, Error>> {
-    info.modes.modes.iter().find(|mode| mode.name == name)?;
-    let output = info.outputs.iter().position(|output| output.name == name);
-    Some(output.map_or_else(
-        || {
-            let reason = format!("a mode is seen by an output of its name: `output {name} = {name};`");
-            Err(Error::Name { name: name.to_owned(), reason })
-        },
-        |at| {
-            let (measured, direction) = (Measured::Output(at), Direction::Rising);
-            Ok(Threshold { measured, value: 0.5, direction })
-        },
-    ))
+/// Where a mode of this name is entered, if there is one.
+fn entered(info: &Info, name: &str) -> Option<Threshold> {
+    let mode = info.modes.modes.iter().find(|mode| mode.name == name)?;
+    let (measured, direction) = (Measured::Input(mode.memory), Direction::Rising);
+    Some(Threshold { measured, value: 0.5, direction })
 }
 
 /// Why a text without a comparison ends no run.
 fn no_condition(info: &Info, text: &str) -> Error {
-    let events: Vec<String> = info.events.iter().map(|event| format!("`{}`", event.name)).collect();
-    let declared = match &events[..] {
+    let events = info.events.iter().map(|event| event.name);
+    let names = events.chain(info.stops.iter().map(|stop| stop.name));
+    let names = names.chain(info.modes.modes.iter().map(|mode| mode.name));
+    let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+    let declared = match &names[..] {
         [] => String::new(),
-        events => format!(", or a declared event ({})", events.join(", ")),
+        names => format!(", or what is declared so ({})", names.join(", ")),
     };
     Error::Name {
         name: text.to_owned(),
@@ -111,14 +108,15 @@ fn no_condition(info: &Info, text: &str) -> Error {
 /// The quantity called so, its dimension, and the unit of a bare number.
 fn measured(info: &Info, name: &str) -> Result<(Measured, Dimension, Unit), Error> {
     let wanted: String = name.chars().filter(|letter| !letter.is_whitespace()).collect();
-    let known = Signal::observable(info);
+    let known = [Signal::observable(info), Signal::memories(info)].concat();
     let found = known.iter().find_map(|signal| {
         let measured = match signal.variable {
             Variable::Coordinate(at) => Measured::Position(at),
             Variable::Velocity(at) => Measured::Velocity(at),
             Variable::Output(at) => Measured::Output(at),
             Variable::Multiplier(at) => Measured::Multiplier(at),
-            Variable::Input(_) | Variable::Parameter(_) => return None,
+            Variable::Input(at) => Measured::Input(at),
+            Variable::Parameter(_) => return None,
         };
         (signal.name == wanted).then(|| (measured, signal.dimension, Unit::of_signal(info, signal)))
     });
@@ -197,15 +195,14 @@ mod tests {
     fn a_mode_is_entered() {
         for text in ["held", "mode=held", "mode = held"] {
             let Ok(Ending::Threshold(found)) = read(text) else { panic!("{text} is a mode") };
-            assert_eq!((found.measured, found.direction), (Measured::Output(1), Direction::Rising));
+            assert_eq!((found.measured, found.direction), (Measured::Input(2), Direction::Rising));
         }
     }
 
     #[test]
     fn other_conditions_are_refused() {
         for (text, part) in [
-            ("bolted", "output bolted = bolted;"),
-            ("opens", "or a declared event (`open`)"),
+            ("opens", "or what is declared so (`open`, `held`, `bolted`)"),
             ("x = 3", "x3 > 200mm"),
             ("y > 3", "theta"),
             ("x > 20 deg", "20 deg"),

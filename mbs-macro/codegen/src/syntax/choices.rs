@@ -1,7 +1,7 @@
 //! Formulas that choose: `if a < b { p } else { q }`.
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
-use syn::parse::ParseStream;
+use syn::parse::{ParseBuffer, ParseStream};
 use syn::{Ident, Result, Token, braced, parenthesized, token};
 
 use super::formula::{checked, end, sum};
@@ -130,21 +130,24 @@ fn holds_condition(group: &Group) -> bool {
 
 /// A comparison of two formulas, as it was written.
 pub(super) fn condition(input: ParseStream<'_>, example: &str) -> Result<Condition> {
-    let ahead = input.fork();
+    let (ahead, mut text) = (input.fork(), TokenStream::new());
     let left = input.parse()?;
+    pass(&ahead, input, &mut text)?;
+    let left_text = written(text.clone());
     let comparison_span = input.span();
     let Some(comparison) = comparison(input)? else {
         return Err(input.error(format!("one of `<`, `<=`, `>`, `>=` is expected here, as in `{example}`")));
     };
     let right = input.parse()?;
-    let mut text = TokenStream::new();
-    while !ahead.is_empty() && !ahead.peek(Token![<]) && !ahead.peek(Token![>]) {
-        text.extend([ahead.parse::<TokenTree>()?]);
-    }
-    let left_text = written(text.clone());
-    while !(ahead.is_empty() || ahead.peek(Token![;]) || ahead.peek(token::Brace)) {
-        text.extend([ahead.parse::<TokenTree>()?]);
-    }
+    pass(&ahead, input, &mut text)?;
     let text = written(text);
     Ok(Condition { left, comparison, comparison_span, right, text, left_text })
+}
+
+/// Takes the tokens that `input` has passed.
+fn pass(ahead: &ParseBuffer<'_>, input: ParseStream<'_>, text: &mut TokenStream) -> Result<()> {
+    while !ahead.is_empty() && ahead.cursor() != input.cursor() {
+        text.extend([ahead.parse::<TokenTree>()?]);
+    }
+    Ok(())
 }

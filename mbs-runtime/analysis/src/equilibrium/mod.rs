@@ -8,7 +8,7 @@ mod newton;
 mod relaxation;
 mod stiffness;
 
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::{Described, Equations as _};
 use nalgebra::{Complex, DVector};
 
 use self::newton::newton;
@@ -17,7 +17,8 @@ use self::stiffness::Stiffness;
 use crate::Error;
 use crate::linearization::{Ports, on_its_rows};
 use crate::point::OperatingPoint;
-use crate::stops::{self, complementary};
+use crate::resting::Resting;
+use crate::stops::{self, complementary, held_rows, meets_modes};
 use crate::tangent::Rest;
 
 /// The method by which an equilibrium is looked for.
@@ -107,6 +108,9 @@ pub struct Equilibrium {
     /// The stops that it rests on, by their places in [`Info::stops`](mbs_runtime::Info::stops), and the forces with which
     /// they push: along a gap in m in N.
     pub rests: Vec<(usize, f64)>,
+    /// The constraints of modes that hold, by their places in [`Modes::locks`](mbs_runtime::Modes::locks), and their
+    /// multipliers. Those that repeat others are left out.
+    pub held: Vec<(usize, f64)>,
     /// κ of K_r x = κ M_r x, ascending, in 1/s²: the squares of the natural frequencies of an
     /// undamped mechanism, negative for directions in which it falls away.
     pub stiffness: Vec<f64>,
@@ -229,6 +233,9 @@ impl From<&Equilibrium> for OperatingPoint {
 /// sets of stops, first without any, until both hold. Where several sets have an equilibrium, it is that of the set to which
 /// the search is led, or of the smallest one.
 ///
+/// *Modes* hold as the inputs say: without inputs as they are declared. Their constraints are met where it rests, and their
+/// multipliers are found with the others.
+///
 /// A mechanism without degrees of freedom rests where it is assembled: what is found are its reactions.
 ///
 /// Own states are unknowns as positions are: at rest ż = 0. Stiffnesses are those of the mechanism while they are
@@ -282,16 +289,25 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let inputs = search.inputs.clone().unwrap_or(defaults);
     check("positions", &from, info.coordinates.len())?;
     check("inputs", &inputs, info.inputs.len())?;
-    if info.stops.is_empty() {
+    let held = held_rows(mechanism, (search.t, &from), &inputs);
+    Error::refuse_rates(Resting::new(mechanism, &held).info(), "an equilibrium")?;
+    if info.stops.is_empty() && held.is_empty() {
         return on_rows(mechanism, search, DVector::from_vec(from), inputs);
     }
-    let (stops, mut found) = complementary(mechanism, search.t, |mechanism| {
+    let (stops, mut found) = complementary(mechanism, (search.t, &held), |mechanism| {
         let found = on_rows(mechanism, search, DVector::from_column_slice(&from), inputs.clone())?;
         let (q, multipliers) = (found.q.clone(), found.multipliers.clone());
         Ok(stops::Found { result: found, q, multipliers })
     })?;
-    let forces = found.multipliers.split_off(info.constraints.len());
-    found.rests = stops.into_iter().zip(forces.into_iter().map(|multiplier| -multiplier)).collect();
+    meets_modes(mechanism, (search.t, &found.q), &inputs)?;
+    let mut of_modes = found.multipliers.split_off(info.constraints.len());
+    let of_stops = of_modes.split_off(held.len());
+    found.rests = stops.into_iter().zip(of_stops.into_iter().map(|multiplier| -multiplier)).collect();
+    let first = info.contacts() - info.modes.locks.len();
+    found.held = held.into_iter().map(|row| row - first).zip(of_modes).collect();
+    for (at, multiplier) in &found.held {
+        found.inputs[info.modes.locks[*at].held] = *multiplier;
+    }
     for (at, stop) in info.stops.iter().enumerate() {
         let is_rested_on = found.rests.iter().any(|(stop, _)| *stop == at);
         found.inputs[stop.memory] = f64::from(u8::from(is_rested_on));
@@ -332,6 +348,7 @@ fn on_rows(
         iterations,
         inputs,
         rests: Vec::new(),
+        held: Vec::new(),
     };
     if info.lines < info.coordinates.len() {
         found.rates = rates(mechanism, &found).unwrap_or_default();

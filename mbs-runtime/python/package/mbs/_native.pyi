@@ -20,6 +20,7 @@ class Info(TypedDict):
     parameters: list[Described]
     inputs: list[Described]
     memories: list[Described]
+    modes: list[str]
     coordinates: list[Described]
     states: list[Described]
     outputs: list[Described]

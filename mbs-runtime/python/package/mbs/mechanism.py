@@ -100,7 +100,8 @@ class Mechanism:
         self.inputs: Mapping[str, Quantity] = _by_name(info["inputs"])
         """The inputs with their defaults."""
         self.memories: Mapping[str, Quantity] = _by_name(info["memories"])
-        """The memories, which clocks set, with their declared values."""
+        """The memories, which clocks, stops and modes set, with their declared values."""
+        self._modes: Mapping[str, Quantity] = {name: self.memories[name] for name in info["modes"]}
         self.coordinates: Mapping[str, Quantity] = _by_name(info["coordinates"])
         """The coordinates with the declared start."""
         self.states: Mapping[str, Quantity] = _by_name(info["states"])
@@ -130,7 +131,8 @@ class Mechanism:
         return _compiled, self._source
 
     def _asked(self, given: Mapping[str, Any], starts: bool = False) -> Asked:
-        return asked(self.name, self.parameters, self.inputs, given, {**self.coordinates, **self.states} if starts else None)
+        inputs = {**self.inputs, **self._modes}
+        return asked(self.name, self.parameters, inputs, given, {**self.coordinates, **self.states} if starts else None)
 
     def _has_no_end(self, values: Mapping[str, Any]) -> None:
         """Refuses what a run in a loop has no use for."""
@@ -296,7 +298,7 @@ class Mechanism:
     ) -> Equilibrium:
         """Where the mechanism is at rest: the nearest equilibrium to the declared start, or to ``guess`` in some
         coordinates; with ``relax`` the stable one at which it would come to rest. ``at`` is the time at which drives are
-        held."""
+        held. A mode holds with its name set to 1, ``m.equilibrium(caught=1)``."""
         point = _point(guess=guess, at=at, relax=relax)
         return Equilibrium(self.name, self._native.equilibrium(self._asked(values), point))
 

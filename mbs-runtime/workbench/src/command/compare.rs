@@ -9,6 +9,7 @@ use super::{json, page};
 use crate::console::{Warnings, complain};
 use crate::figure::{SERIES_COLOURS, Save};
 use crate::signals::Signals;
+use crate::start::settable;
 use crate::{Column, Error, Recording, Settings, Table, Unit, quantity, say, write_csv};
 
 /// The value that differs.
@@ -24,7 +25,8 @@ impl Comparison {
     /// Reads `NAME=VALUE,…`.
     pub fn of(info: &'static Info, settings: &Settings, text: &str) -> Result<Self, Error> {
         let (name, list) = quantity::split_setting(text)?;
-        let known = || info.parameters.iter().chain(info.free_inputs());
+        let inputs = settable(info);
+        let known = || info.parameters.iter().chain(&inputs);
         let quantity = known()
             .find(|quantity| quantity.name == name)
             .ok_or_else(|| Error::unknown("parameter or input", name, known().map(|q| q.name)))?;
@@ -43,7 +45,7 @@ impl Comparison {
                 "{most} values can be told apart in a picture; for more there is `sweep`"
             )));
         }
-        let is_input = info.free_inputs().iter().any(|input| input.name == name);
+        let is_input = inputs.iter().any(|input| input.name == name);
         let with = |value: &f64| {
             let mut settings = settings.clone();
             let list = if is_input { &mut settings.inputs } else { &mut settings.parameters };

@@ -33,18 +33,19 @@ impl Choice {
         Ok(columns)
     }
 
-    /// The columns to be drawn: coordinates, outputs and the violation of constraints if none are chosen.
+    /// The columns to be drawn: coordinates, own states, outputs and the violation of constraints if none are chosen.
     pub fn drawn<'a>(&self, recording: &'a Recording) -> Result<Vec<&'a Column>, Error> {
         if !self.columns.is_empty() {
             return recording.select(self.columns.iter().map(String::as_str));
         }
-        let (n, hidden) = (recording.coordinates, hidden(recording.lines));
+        let (n, hidden, memories) = (recording.coordinates, hidden(recording.lines), recording.of_memories());
         let has_constraints = recording.columns.iter().any(|column| column.name.starts_with("lambda("));
         let is_usual = |at: usize, name: &str| match at.checked_sub(1) {
             None => false,
             Some(place) if place < n => place < recording.lines && !hidden.contains(&place),
             // rates of coordinates, then own states
             Some(place) if place < 2 * n => place - n >= recording.lines,
+            Some(_) if memories.contains(&at) => false,
             Some(_) => !name.starts_with("lambda(") && (has_constraints || name != "violation"),
         };
         let columns = recording.columns.iter().enumerate();
@@ -96,6 +97,7 @@ fn kind(recording: &Recording, column: &Column) -> &'static str {
                 "angular velocity"
             }
         }
+        Some(_) if recording.of_memories().contains(&at) => "memories",
         _ if column.name.starts_with("lambda(") => "multiplier",
         _ if column.name == "violation" => "violation",
         _ => "outputs",

@@ -60,11 +60,11 @@ impl Arguments {
         sketch.map_or(Ok(()), Figure::check_ending)?;
         let values = self.values.constants("inputs that change with time have no equilibrium")?;
         let start = Start::of(model, &values.settings(model)?)?;
-        let run = model.start(&start)?;
         held(model.info()).into_iter().for_each(|note| complain(format_args!("note: {note}")));
         let from = pairs(&self.from)?;
         let about = About { from, at: self.at.clone(), is_relaxed: self.relax, ..About::default() };
-        let rest = equilibrium(run.described(), &about.search(&*run)?)?;
+        let (run, search) = about.search(model, &start)?;
+        let rest = equilibrium(run.described(), &search)?;
         let shown = Found::of(name, model.info(), &*run, &rest);
         if let Some(path) = sketch {
             Figure::mechanism(name, Picture::of(&still(&*run, model.sketch(), &rest))).save(path)?;
@@ -106,6 +106,11 @@ impl<'a> Found<'a> {
         run.described().outputs(at, &rest.inputs, [&still, &rest.multipliers], &mut outputs);
         let coordinates = info.coordinates.iter().zip(&rest.q);
         let reactions = info.constraints.iter().zip(&rest.multipliers);
+        let reactions = reactions.map(|(row, x)| (row.name, *x, Unit::of_multiplier(row.dimension)));
+        let of_modes = rest.held.iter().map(|(at, multiplier)| {
+            let lock = &info.modes.locks[*at];
+            (lock.name, *multiplier, Unit::of(&info.inputs[lock.held]))
+        });
         Self {
             name,
             rest,
@@ -116,7 +121,7 @@ impl<'a> Found<'a> {
                 .collect(),
             states: coordinates.skip(info.lines).map(|(z, x)| (z.name, *x, Unit::of(z))).collect(),
             outputs: info.outputs.iter().zip(&outputs).map(|(o, x)| (o.name, *x, Unit::of(o))).collect(),
-            reactions: reactions.map(|(row, x)| (row.name, *x, Unit::of_multiplier(row.dimension))).collect(),
+            reactions: reactions.chain(of_modes).collect(),
             rests: rest
                 .rests
                 .iter()

@@ -76,13 +76,12 @@ impl Arguments {
         let values = self.values.constants("inputs are found here, or keep their values")?;
         let info = model.info();
         let start = Start::of(model, &values.settings(model)?)?;
-        let run = model.start(&start)?;
-        let t = run.time();
+        let t = model.start(&start)?.time();
         let over = self.over.as_ref().map(|text| duration(text)).transpose()?;
         let wanted = self.wanted(info, [t, over.unwrap_or(1.0)], over)?;
         let count = self.samples.unwrap_or(SAMPLES);
         let about = About { from: pairs(&self.from)?, ..About::default() };
-        let search = about.search(&*run)?;
+        let (run, search) = about.search(model, &start)?;
         let prescription = Prescription {
             curves: wanted.curves,
             by: self.inputs.as_ref().map_or(Ok(By::Efforts), |patterns| by(info, patterns))?,

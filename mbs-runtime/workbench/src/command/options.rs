@@ -7,6 +7,7 @@ use clap::{Arg, Args};
 use mbs_runtime::{Info, Stabilization};
 
 use crate::models::{Found, Models};
+use crate::start::settable;
 use crate::{Error, Model, RunOptions, Settings, Signals, Unit, quantity, say, start_state};
 
 /// The mechanism.
@@ -204,7 +205,8 @@ pub(super) type Given = (String, f64, Unit);
 /// The values of the settings that replace declared ones.
 pub(super) fn given(info: &'static Info, settings: &Settings) -> Vec<Given> {
     let set = settings.parameters.iter().chain(&settings.inputs);
-    let quantity = |name: &str| info.parameters.iter().chain(info.free_inputs()).find(|q| q.name == name);
+    let inputs = settable(info);
+    let quantity = |name: &str| info.parameters.iter().chain(&inputs).find(|q| q.name == name);
     let set = set.filter_map(|(name, value)| Some((name.clone(), *value, Unit::of(quantity(name)?))));
     let from = settings.from.iter();
     set.chain(from.filter_map(|(name, value)| Some((name.clone(), *value, start_state::unit(info, name)?))))

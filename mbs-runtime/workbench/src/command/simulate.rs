@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     model: Named,
     #[command(flatten)]
     run: Run,
-    /// End where this becomes true, 'x3 > 200mm' or 'der(theta) < 0', or at this declared event; a run to a
+    /// End where this becomes true, 'x3 > 200mm' or 'der(theta) < 0', or at this event, stop or mode; a run to a
     /// tolerance
     #[arg(long, value_name = "CONDITION")]
     until: Option<String>,

@@ -81,9 +81,8 @@ impl Arguments {
         let lead = Lead::of(info, &self.along, self.samples.unwrap_or(SAMPLES))?;
         let loads = lead.loads(info, &self.advantage)?;
         let start = Start::of(model, &values.settings(model)?)?;
-        let run = model.start(&start)?;
         let about = About { from: pairs(&self.from)?, at: self.at.clone(), ..About::default() };
-        let search = about.search(&*run)?;
+        let (run, search) = about.search(model, &start)?;
         let request = Travel {
             along: lead.along.clone(),
             samples: lead.samples.clone(),
