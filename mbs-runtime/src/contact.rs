@@ -186,6 +186,16 @@ impl<'a, T: Real> Contacts<'a, T> {
         None
     }
 
+    /// The stops of a set that others of it and what is `bound` keep closed: no impulses open them.
+    pub fn kept_closed(&self, set: u32, bound: u32) -> u32 {
+        let opening = |stop: usize| {
+            core::array::from_fn(|row| if row == stop { T::from_f64(-1.0) } else { T::default() })
+        };
+        those(self.stops, |stop| {
+            has(set & !bound, stop) && self.complementary(set | bound, bound, &opening(stop)).is_none()
+        })
+    }
+
     /// The first active stop whose impulse becomes 0 where that of one grows that depends on them.
     fn exchanged(&self, active: u32, (by, bound): (usize, u32), x: &Each<T>) -> Option<usize> {
         let column =
@@ -348,5 +358,17 @@ mod tests {
         assert_eq!((active, x), (2, [0.0, 2.0]));
         // the wrong way round there is nothing
         assert_eq!(solved([[1.0, -1.0], [-1.0, 1.0]], [-1.0, -1.0]), None);
+    }
+
+    #[test]
+    fn stops_against_each_other_keep_closed() {
+        // a block that fits between two walls, and another one before a third
+        let w = [[1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let values: Vec<f64> = w.into_iter().flatten().chain([1.0, 1.0, 1.0, 0.0]).collect();
+        let contacts = Contacts { stops: 3, locks: 3, coordinates: 0, constraints: 0, values: &values };
+        assert_eq!([0b111, 0b101, 0b110].map(|set| contacts.kept_closed(set, 0)), [0b011, 0, 0]);
+        // a mode that holds the other one
+        assert_eq!(contacts.kept_closed(0b110, 0b100), 0);
+        assert_eq!(contacts.kept_closed(0b001, 0b010), 0b001);
     }
 }

@@ -117,13 +117,16 @@ fn strike_stops<T: Real>(
         return Ok(false);
     }
     let gap_before = Gaps::of(equations, before, changes.still).gap;
-    // the velocities of the start as joints and gaps at the end have them: what is left are the changes by forces
-    equations.phi_dot(At { t, q, v: before.v }, changes.rows);
-    equations.projection(t, q, changes.rows, changes.q);
-    vectors::copy(changes.v, before.v);
-    vectors::zip_map(changes.v, changes.q, |v, change| v - change);
-    let rate_before = Gaps::of(equations, At { t, q, v: changes.v }, changes.still).rate;
-    let ends = Ends { gap: [gap_before, now.gap], rate: [rate_before, now.rate] };
+    // velocities as joints at the end have them: those of the start change by forces alone, and stops that depend on each
+    // other do not contradict each other by what joints are off
+    let mut rate = |velocities: &[T]| {
+        equations.phi_dot(At { t, q, v: velocities }, changes.rows);
+        equations.projection(t, q, changes.rows, changes.q);
+        vectors::copy(changes.v, velocities);
+        vectors::zip_map(changes.v, changes.q, |v, change| v - change);
+        Gaps::of(equations, At { t, q, v: changes.v }, changes.still).rate
+    };
+    let ends = Ends { gap: [gap_before, now.gap], rate: [rate(before.v), rate(v)] };
     let restitutions = restitutions(equations);
     let size = vectors::largest(equations.info().of_bodies(q)).1.to_f64();
     let answered = Contacts::at(equations, (t, q), |contacts| {
@@ -249,10 +252,14 @@ impl<'a, T: Real> Striking<'a, T> {
                 let target = if is_still { T::ZERO } else { of(&thrown, stop) + later };
                 of(&rate, stop) - if target.to_f64() > 0.0 { target } else { T::ZERO }
             });
-            // a stop whose gap a mode keeps throws nothing back
-            let answers = |b| contacts.complementary(closing | self.locked, self.locked, b);
+            let answers = |b: &_| contacts.complementary(closing | self.locked, self.locked, b);
+            // what others keep closed throws nothing back
+            let unthrown = || {
+                let kept = contacts.kept_closed(closing, self.locked);
+                core::array::from_fn(|stop| of(if has(kept, stop) { &rate } else { &short }, stop))
+            };
             let (_, more) = answers(&short)
-                .or_else(|| answers(&rate).filter(|_| self.locked != 0))
+                .or_else(|| answers(&unthrown()))
                 .or_else(|| self.led_by_modes(closing, &rate))?;
             impulses = zip(&impulses, &more, |impulse, more| impulse + more);
         }

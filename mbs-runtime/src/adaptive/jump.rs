@@ -347,11 +347,12 @@ impl<D: Dynamics> Jump<'_, D> {
                 Some((impulses, after))
             });
             let Some((impulses, after)) = solved.flatten() else {
-                // a stop whose gap a mode keeps throws nothing back
-                if locked == 0 || closed & !settled == 0 {
+                // what others keep closed throws nothing back
+                let kept = self.contacts(|contacts| contacts.kept_closed(closed, locked)).unwrap_or(0);
+                if kept & !settled == 0 {
                     return Err(self.unanswered(closed));
                 }
-                settled |= closed;
+                settled |= kept;
                 continue;
             };
             self.v = after;

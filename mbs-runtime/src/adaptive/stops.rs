@@ -172,8 +172,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             let (equations, slopes) = (jump.dynamics.equations(), jump.slopes());
             let (held, friction) = (held(equations, jump.inputs), all_frictions(equations.info()));
             let is_friction = has(friction, row);
-            let others = if is_friction { held } else { held & friction };
-            let is_free = others != 0 && !has(held, row);
+            let is_free = held != 0 && !has(held, row);
             // of the value of a friction, which is a rate
             let per = if is_friction { h } else { 1.0 };
             is_free.then(|| size * number(&slopes, row) / per)

@@ -145,6 +145,16 @@ static int NAME_complementary(const real *contacts, const int *set, const int *b
     return 0;
 }
 
+/* Marks the stops of a set that others of it and what is bound keep closed: no impulses open them. */
+static void NAME_find_kept_closed(const real *contacts, const int *set, const int *bound, int *kept)
+{
+    for (int stop = 0; stop < CAPS_ROWS; stop++) {
+        real opening[CAPS_ROWS] = {0}, x[CAPS_ROWS] = {0};
+        opening[stop] = -1;
+        kept[stop] = set[stop] && !bound[stop] && !NAME_complementary(contacts, set, bound, opening, x);
+    }
+}
+
 /* Adds what impulses or forces at stops do to velocities, accelerations or multipliers. */
 static void NAME_add_responses(const real *contacts, const real *x, int from, int count, real *to)
 {

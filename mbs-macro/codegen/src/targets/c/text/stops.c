@@ -113,9 +113,17 @@ static int NAME_hit(
         const real target = it->held[stop] ? 0 : thrown[stop] + later;
         wanted[stop] = rates[stop] - (target > 0 ? target : 0);
     }
-    /* a stop whose gap a mode keeps throws nothing back */
-    if (!NAME_complementary(contacts, set, it->locked, wanted, more)
-        && !(NAME_is_any(it->locked) && NAME_complementary(contacts, set, it->locked, rates, more))) {
+    int is_answered = NAME_complementary(contacts, set, it->locked, wanted, more);
+    if (!is_answered) {
+        /* what others keep closed throws nothing back */
+        int kept[CAPS_ROWS];
+        NAME_find_kept_closed(contacts, set, it->locked, kept);
+        for (int row = 0; row < CAPS_ROWS; row++) {
+            wanted[row] = kept[row] ? rates[row] : wanted[row];
+        }
+        is_answered = NAME_complementary(contacts, set, it->locked, wanted, more);
+    }
+    if (!is_answered) {
         /* where modes and drives lead to what is closed, it gives no impulse while it is closed within what modes may be off */
         int is_led = NAME_is_any(it->locked);
         for (int stop = 0; stop < CAPS_STOPS; stop++) {
@@ -178,7 +186,7 @@ static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const stru
     struct NAME_state *const at = &run->state;
     const struct NAME_reactions still = {0};
     struct NAME_answer it = {0};
-    struct NAME_coordinates of_q = {0}, of_v = {0}, begun = {0};
+    struct NAME_coordinates of_q = {0}, of_v = {0}, led = {0};
     struct NAME_constraints rows = {0};
     real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, rated[3 * CAPS_ROWS] = {0};
     real contacts[CAPS_CONTACTS] = {0}, shifts[CAPS_ROWS] = {0};
@@ -194,21 +202,26 @@ static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const stru
         return CAPS_OK;
     }
     NAME_compute_gaps(m, before->t, &before->q, &before->v, &still, was);
-    /* the velocities of the start as joints and gaps at the end have them: what is left are the changes by forces */
-    NAME_compute_phi_dot(m, at->t, &at->q, &before->v, &rows);
-    NAME_compute_projection(m, at->t, &at->q, &rows, &of_v);
-    for (int j = 0; j < CAPS_COORDINATES; j++) {
-        NAME_places(&begun)[j] = NAME_elements(&before->v)[j] - NAME_elements(&of_v)[j];
-        NAME_places(&of_v)[j] = 0;
+    /* velocities as joints at the end have them: those of the start change by forces alone, and stops that depend on each
+       other do not contradict each other by what joints are off */
+    for (int end = 0; end < 2; end++) {
+        const struct NAME_coordinates *const v = end ? &at->v : &before->v;
+        NAME_compute_phi_dot(m, at->t, &at->q, v, &rows);
+        NAME_compute_projection(m, at->t, &at->q, &rows, &of_v);
+        for (int j = 0; j < CAPS_COORDINATES; j++) {
+            NAME_places(&led)[j] = NAME_elements(v)[j] - NAME_elements(&of_v)[j];
+            NAME_places(&of_v)[j] = 0;
+        }
+        NAME_compute_gaps(m, at->t, &at->q, &led, &still, rated);
+        for (int row = 0; row < CAPS_ROWS; row++) {
+            (end ? it.now : it.before)[row] = rated[3 * row + 1];
+        }
     }
-    NAME_compute_gaps(m, at->t, &at->q, &begun, &still, rated);
     NAME_compute_contacts(m, at->t, &at->q, contacts);
     NAME_find_locked(run, it.locked);
     for (int row = 0; row < CAPS_ROWS; row++) {
         it.allowed[row] = NAME_allowed(size, NAME_slope(contacts, row));
         it.gap_now[row] = now[3 * row];
-        it.before[row] = rated[3 * row + 1];
-        it.now[row] = now[3 * row + 1];
     }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         const real gap = was[3 * stop], end = now[3 * stop];

@@ -86,8 +86,8 @@ class AtStops extends Modes {
   }
 
   // x >= 0 with W x + b >= 0 at the stops of a set, one or the other 0 at each, by pivots of the least index; W x + b = 0 at
-  // those that are bound.
-  complementary(set, b, bound = this.each(() => false)) {
+  // those that are bound; nothing where there is none.
+  answerIfAny(set, b, bound) {
     // stops press before friction holds, where they depend on each other
     const isBound = set.some((it, stop) => it && bound[stop]), active = set.map((it) => it && isBound);
     const open = set.map((it, stop) => it && !bound[stop]);
@@ -100,7 +100,17 @@ class AtStops extends Modes {
       if (wrong < 0) break;
       active[wrong] = !active[wrong];
     }
-    return this.failAtStop("IMPACT", set.indexOf(true));
+    return null;
+  }
+
+  complementary(set, b, bound = this.each(() => false)) {
+    return this.answerIfAny(set, b, bound) ?? this.failAtStop("IMPACT", set.indexOf(true));
+  }
+
+  // The stops of a set that others of it and what is bound keep closed: no impulses open them.
+  keptClosed(set, bound) {
+    return set.map((it, stop) =>
+      it && !bound[stop] && !this.answerIfAny(set, this.each((row) => (row === stop ? -1 : 0)), bound));
   }
 
   failAtStop(code, stop) {
@@ -146,11 +156,8 @@ class AtStops extends Modes {
   // The same, or nothing where modes lead to what is closed.
   takenIfAny(closed, change, locked) {
     if (!locked.includes(true)) return this.taken(closed, change, locked);
-    try {
-      return this.taken(closed, change, locked);
-    } catch {
-      return this.each(() => 0);
-    }
+    const set = closed.map((it, row) => it || locked[row]), forces = this.answerIfAny(set, change, locked);
+    return this.each((stop) => (forces ? this.mobility(stop, stop) * forces[stop] : 0));
   }
 
   // Adds what the stops do that are rested on; the growth of the responses.
@@ -214,15 +221,13 @@ class AtStops extends Modes {
     return forces.map((force, row) => force > 0 || (!this.isStop(row) && holds[row]));
   }
 
-  // The impulses of an impact; a stop whose gap a mode keeps throws nothing back.
+  // The impulses of an impact; what others keep closed throws nothing back.
   answered(set, wanted, rates, locked, isDeep) {
-    for (const b of locked.includes(true) ? [wanted, rates] : []) {
-      try {
-        return this.complementary(set, b, locked);
-      } catch {
-        // the next one may have an answer
-      }
-    }
+    const answer = this.answerIfAny(set, wanted, locked);
+    if (answer) return answer;
+    const kept = this.keptClosed(set, locked);
+    const next = this.answerIfAny(set, wanted.map((it, row) => (kept[row] ? rates[row] : it)), locked);
+    if (next) return next;
     // where modes and drives lead to what is closed, it gives no impulse while it is closed within what modes may be off
     const isLed = locked.includes(true) && !set.some((it, row) => it && isDeep(row));
     return isLed ? this.solveAtStops(locked, rates) : this.complementary(set, wanted, locked);
@@ -275,11 +280,15 @@ class AtStops extends Modes {
     m.trialQ.set(before.q);
     m.trialV.set(before.v);
     const was = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved);
-    // the velocities of the start as joints and gaps at the end have them: what is left are the changes by forces
-    m.call("phi_dot", this.t, this.q, m.trialV, m.phiDot);
-    m.call("projection", this.t, this.q, m.phiDot, m.delta);
-    m.delta.forEach((change, j) => { m.trialV[j] = m.trialV[j] - change; });
-    const rated = this.gapsAt(this.t, this.q, m.trialV, m.unmoved);
+    // velocities as joints at the end have them: those of the start change by forces alone, and stops that depend on each
+    // other do not contradict each other by what joints are off
+    const [rateBefore, rateNow] = [before.v, this.v].map((velocities) => {
+      m.trialV.set(velocities);
+      m.call("phi_dot", this.t, this.q, m.trialV, m.phiDot);
+      m.call("projection", this.t, this.q, m.phiDot, m.delta);
+      m.delta.forEach((change, j) => { m.trialV[j] = m.trialV[j] - change; });
+      return this.gapsAt(this.t, this.q, m.trialV, m.unmoved).map(({ rate }) => rate);
+    });
     m.call("contacts", this.t, this.q, m.contacts);
     if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("IMPACT", closed.indexOf(true));
     const rest = now.map(({ gap }, stop) => {
@@ -287,8 +296,8 @@ class AtStops extends Modes {
       return part < 1 ? 1 - part : 0;
     });
     const { impulses, moved, gaps, held, isImpact } = this.answer(closed, {
-      before: rated.map(({ rate }) => rate),
-      now: now.map(({ rate }) => rate),
+      before: rateBefore,
+      now: rateNow,
       gap: now.map(({ gap }) => gap),
       rest,
       shift: rest.map((part, row) => (pushed[row] || this.isLock(row) ? 0 : part * this.h)),
