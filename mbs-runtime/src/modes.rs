@@ -195,7 +195,9 @@ pub(crate) fn due<T: Real>(
         let (before, now) = (inputs.get(transition.memory).map_or(0.0, |seen| seen.to_f64()), value.to_f64());
         let size = before.abs().max(now.abs());
         let held = side * before > 0.0;
-        let is_at_limit = now.abs() <= share::<T>(ROUNDING) * before.abs() && before.abs() > 2.0 * NONE;
+        let is_at_limit = transition.holds_near
+            && now.abs() <= share::<T>(ROUNDING) * before.abs()
+            && before.abs() > 2.0 * NONE;
         let holds = if held {
             side * now >= -(share::<T>(off) * before.abs())
         } else {
@@ -207,6 +209,18 @@ pub(crate) fn due<T: Real>(
         *value = T::from_f64(if holds { side * size } else { -side * size });
     }
     (due, seen)
+}
+
+/// Notes that conditions hold which a run has found: where one begins at its limit rounding keeps it there for a while. It is
+/// off where it is so by rounding of the coordinates.
+pub(crate) fn note_found<T: Real>(info: &Info, (found, size): (u32, f64), inputs: &mut [T]) {
+    for (of, transition) in info.modes.transitions.iter().enumerate().filter(|(of, _)| has(found, *of)) {
+        let Some(memory) = inputs.get_mut(transition.memory) else { continue };
+        let side = if transition.is_rising { 1.0 } else { -1.0 };
+        if side * memory.to_f64() <= 0.0 {
+            *memory = T::from_f64(side * memory.to_f64().abs().max(ROUNDING / OFF * size));
+        }
+    }
 }
 
 /// The value of a transition, which falls through 0 where its condition begins to hold.

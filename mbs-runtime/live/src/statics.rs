@@ -123,9 +123,9 @@ fn modes(compiled: &Compiled) -> Modes {
         DeclaredLock { name, mode: it.mode, held: it.held, is_rate: it.is_rate, formula }
     };
     let transition = |it: &compiled::Transition| {
-        let compiled::Transition { text: condition, is_rising, is_strict, memory } = it;
+        let &compiled::Transition { text: ref condition, is_rising, is_strict, holds_near, memory } = it;
         let condition = text(condition);
-        DeclaredTransition { condition, is_rising: *is_rising, is_strict: *is_strict, memory: *memory }
+        DeclaredTransition { condition, is_rising, is_strict, holds_near, memory }
     };
     Modes {
         modes: leak(compiled.modes.iter().map(mode)),

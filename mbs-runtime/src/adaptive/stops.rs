@@ -252,8 +252,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     fn jump_at(&mut self, reached: u32) -> Result<(), Error> {
         // what lies behind was computed with the memories of before
         self.inputs_mut();
-        let (found, off) = (reached >> MOST_CONTACTS, self.stopping.off);
-        self.with_memories(|equations, at, inputs| modes::pass(equations, at, inputs, (found, off)))?;
+        let (found, Stopping { off, size, .. }) = (reached >> MOST_CONTACTS, self.stopping);
+        self.with_memories(|equations, at, inputs| {
+            modes::pass(equations, at, inputs, (found, off))?;
+            modes::note_found(equations.info(), (found, size), inputs);
+            Ok(())
+        })?;
         let (longest, mut stopping) = (self.effort.longest, self.stopping);
         let found = self.with_jump(|jump| {
             let held = held(jump.dynamics.equations(), jump.inputs);

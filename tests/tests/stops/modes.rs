@@ -315,3 +315,37 @@ fn what_holds_does_not_begin_anew() -> Result<(), Error> {
     }
     Ok(())
 }
+
+mechanism! {
+    /// A ball that falls from the limit of a condition, and a clock that counts.
+    Limits {
+        dof = 1;
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 2 [kg]; }
+        memory falls [1] = 0;
+        memory count [1] = 0;
+        memory third [s] = 0 [s];
+        every 0.2 [s] offset 0.1 [s] { set count = count + 1; }
+        when y < 0.5 [m] { set falls = falls + 1; }
+        when count > 2 { set third = t; }
+        start { y = 0.5 [m]; }
+    }
+}
+
+/// Regressions: a run to a tolerance had no end where a value begins at its limit, by rounding of 0.5 m; and what jumps to
+/// its limit was beyond it.
+#[test]
+fn conditions_begin_at_their_limits() -> Result<(), Error> {
+    for rtol in [1e-3, 1e-6, 1e-10] {
+        let tolerances = Tolerances { rtol, ..TIGHT };
+        let mut run = Adaptive::builder(Limits::declared()).tolerances(tolerances).build()?;
+        run.advance_to(1.0)?;
+        assert_eq!((run.inputs().falls, run.inputs().count, run.inputs().third), (1.0, 5.0, 0.5), "{rtol}");
+    }
+    let mut run = Simulation::new(Limits::declared(), 1e-3)?;
+    run.advance_to(1.0)?;
+    assert_eq!((run.inputs().falls, run.inputs().count), (1.0, 5.0));
+    // the sample of the clock is the end of a step
+    assert!((run.inputs().third - 0.5).abs() < 1.5e-3, "{}", run.inputs().third);
+    Ok(())
+}

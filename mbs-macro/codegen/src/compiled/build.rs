@@ -125,8 +125,9 @@ impl From<&model::Mode> for Mode {
 
 impl From<&model::Transition> for Transition {
     fn from(transition: &model::Transition) -> Self {
-        let model::Transition { text, is_rising, is_strict, memory, .. } = transition;
-        Self { text: text.clone(), is_rising: *is_rising, is_strict: *is_strict, memory: *memory }
+        let model::Transition { text, is_rising, is_strict, holds_near, memory, .. } = transition;
+        let text = text.clone();
+        Self { text, is_rising: *is_rising, is_strict: *is_strict, holds_near: *holds_near, memory: *memory }
     }
 }
 

@@ -60,6 +60,8 @@ pub struct Transition {
     pub is_rising: bool,
     /// True if it does not hold where the value is 0 at the start.
     pub is_strict: bool,
+    /// True if it holds within rounding of 0: unless it is strict and of inputs alone, which jump.
+    pub holds_near: bool,
     /// The place among the inputs of the memory of the sign that the value had last.
     pub memory: usize,
 }

@@ -174,7 +174,12 @@ impl Resolver<'_> {
         let is_rising = matches!(condition.comparison, Comparison::Greater | Comparison::GreaterOrEqual);
         let is_strict = matches!(condition.comparison, Comparison::Greater | Comparison::Less);
         let text = condition.text.clone();
-        self.transitions.push(Transition { value, is_rising, is_strict, memory, text, sets });
+        let symbols = self.scope.arena.symbols_in(value);
+        let jumps = symbols
+            .iter()
+            .all(|&symbol| matches!(self.scope.meaning(symbol), Meaning::Input(_) | Meaning::Parameter(_)));
+        let holds_near = !(is_strict && jumps);
+        self.transitions.push(Transition { value, is_rising, is_strict, holds_near, memory, text, sets });
     }
 
     /// Refuses modes that are never entered, and what does not go with modes.

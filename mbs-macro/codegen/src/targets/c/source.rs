@@ -211,12 +211,18 @@ fn tables(target: &Target<'_>) -> String {
     if !compiled.transitions.is_empty() {
         let sign = |is_positive| if is_positive { 1 } else { -1 };
         let side = |it: &Transition| {
-            format!("{{{}, {}, {}}}", it.memory, sign(it.is_rising), sign(it.is_rising != it.is_strict))
+            let holds_near = u8::from(it.holds_near);
+            format!(
+                "{{{}, {}, {}, {holds_near}}}",
+                it.memory,
+                sign(it.is_rising),
+                sign(it.is_rising != it.is_strict)
+            )
         };
         let sides = compiled.transitions.iter().map(side).collect();
-        let declaration = "/* The memory of every transition, the sign with which it holds, and that of 0 at the start. */\n\
-                           static const int NAME_sides[][3]";
-        add(declaration, sides, "{0, 0, 0}");
+        let declaration = "/* The memory of every transition, the sign with which it holds, that of 0 at the start, and whether \
+                           it holds within rounding of 0. */\nstatic const int NAME_sides[][4]";
+        add(declaration, sides, "{0, 0, 0, 0}");
     }
     let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
     add(

@@ -110,9 +110,12 @@ fn modes(compiled: &Compiled, runtime: &TokenStream) -> TokenStream {
             #runtime::DeclaredLock { name: #name, mode: #mode, held: #held, is_rate: #is_rate, formula: #formula }
         }
     });
-    let transitions = compiled.transitions.iter().map(|Transition { text, is_rising, is_strict, memory }| {
+    let transitions = compiled.transitions.iter().map(|it| {
+        let Transition { text, is_rising, is_strict, holds_near, memory } = it;
         let memory = Literal::usize_unsuffixed(*memory);
-        quote!(#runtime::DeclaredTransition { condition: #text, is_rising: #is_rising, is_strict: #is_strict, memory: #memory })
+        quote!(#runtime::DeclaredTransition {
+            condition: #text, is_rising: #is_rising, is_strict: #is_strict, holds_near: #holds_near, memory: #memory
+        })
     });
     quote! {
         #runtime::Modes {

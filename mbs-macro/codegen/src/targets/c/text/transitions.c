@@ -22,7 +22,8 @@ static void NAME_find_seen(const struct NAME_run *run, int *due, real *seen)
         const double side = NAME_sides[of][1], now = (double)seen[of];
         const double before = (double)NAME_elements(&run->inputs)[NAME_sides[of][0]];
         const double size = fabs(before) > fabs(now) ? fabs(before) : fabs(now);
-        const int is_at_limit = fabs(now) <= NAME_rounding(1e-12) * fabs(before) && fabs(before) > 2e-30;
+        const int is_at_limit =
+            NAME_sides[of][3] && fabs(now) <= NAME_rounding(1e-12) * fabs(before) && fabs(before) > 2e-30;
         /* what a mode keeps at its limit is off by the error of a step */
         const int has_held = side * before > 0;
         const int holds =

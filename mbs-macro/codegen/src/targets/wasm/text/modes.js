@@ -101,8 +101,8 @@ class Modes extends Sticking {
   seen() {
     const due = [], seen = [];
     this.transitionValues().forEach((now, of) => {
-      const [memory, side] = this.tables.transitions[of], before = this.inputs[memory];
-      const isAtLimit = Math.abs(now) <= 1e-12 * Math.abs(before) && Math.abs(before) > 2e-30;
+      const [memory, side, , holdsNear] = this.tables.transitions[of], before = this.inputs[memory];
+      const isAtLimit = holdsNear && Math.abs(now) <= 1e-12 * Math.abs(before) && Math.abs(before) > 2e-30;
       // what a mode keeps at its limit is off by the error of a step
       const hasHeld = side * before > 0;
       const holds = hasHeld ? side * now >= -(1e-6 * Math.abs(before)) : side * now > 0 || isAtLimit;
