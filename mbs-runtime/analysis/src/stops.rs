@@ -182,7 +182,9 @@ pub fn rows_at(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result
     }
     meets_modes(mechanism, (t, q), &point.inputs)?;
     let held = held_rows(mechanism, (t, q), &point.inputs);
-    let closed: Vec<usize> = (0..gaps.len()).filter(|stop| gaps[*stop] <= size).collect();
+    // a gap that joints and modes keep sees no small motion
+    let moves = |stop: usize| are_independent(mechanism, (t, q), &[&held[..], &[stop]].concat());
+    let closed: Vec<usize> = (0..gaps.len()).filter(|stop| gaps[*stop] <= size && moves(*stop)).collect();
     let Some(first) = closed.first() else { return Ok(held) };
     let rows = [&held[..], &closed].concat();
     let resting = Resting::new(mechanism, &rows);

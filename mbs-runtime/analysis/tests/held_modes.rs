@@ -93,6 +93,21 @@ fn stops_are_rested_on_beside_modes() {
     assert!((floor - expected.rests[0].1).abs() < 1e-9 && (turning - expected.multipliers[0]).abs() < 1e-9);
 }
 
+/// Regression: a stop at the place where a mode holds was refused, as one that is touched without force. A mode at its place
+/// and the constraint outright, a little above it, have the same small motions.
+#[test]
+fn a_stop_sees_no_small_motion_where_a_mode_holds() {
+    let at = |y: &str| {
+        let low = format!("mode low {{ constraint down: y = {y} [m]; }} when x > 5 [m] {{ enter low; }}");
+        let live = bar(4, &(MODES.to_owned() + &low));
+        let rest = at_rest(&live, &["low"]).unwrap();
+        assert!(rest.rests.is_empty() && rest.stiffness.len() == 3);
+        linearize(&live, &OperatingPoint::from(&rest), &Ports::default()).unwrap().a
+    };
+    let [touching, above] = [at("-0.55"), at("-0.549999")];
+    assert!((touching.clone() - above).amax() < 1e-4 * touching.amax(), "{touching}");
+}
+
 #[test]
 fn what_cannot_hold_is_refused() {
     let live = bar(4, MODES);

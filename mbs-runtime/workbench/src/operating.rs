@@ -65,25 +65,22 @@ pub struct Operating<'a> {
 }
 
 impl About {
-    /// A run at its start, and how an equilibrium is looked for from there. Modes that are set hold in the search and not in
-    /// the run: the search closes their joints.
+    /// A run at its start, and how an equilibrium is looked for from there. Modes that hold at the start do so in the search and not
+    /// in the run: the search closes their joints.
     ///
     /// # Errors
     /// Values that cannot be read, coordinates that the mechanism does not have, positions from which it cannot
     /// be assembled.
     pub fn search(&self, model: &dyn Model, start: &Start) -> Result<(Box<dyn System>, Search), Error> {
-        let mut as_declared = start.clone();
-        let of_modes = || model.info().modes.modes.iter().map(|mode| mode.memory);
-        of_modes().for_each(|at| as_declared.inputs[at] = model.info().inputs[at].default);
-        let run = model.start(&as_declared)?;
+        let run = model.start(&start.without_modes(model.info()))?;
         let t = match &self.at {
             Some(text) => quantity::parse("at", text, TIME)?,
             None => run.time(),
         };
         let mut inputs = vec![0.0; run.equations().info().inputs.len()];
         run.inputs(&mut inputs);
-        for at in of_modes().filter(|at| start.inputs[*at] != as_declared.inputs[*at]) {
-            inputs[at] = start.inputs[at];
+        for mode in model.info().modes.modes {
+            inputs[mode.memory] = start.inputs[mode.memory];
         }
         let strategy = if self.is_relaxed { Strategy::Relaxation } else { Strategy::Automatic };
         let from = Some(positions(&*run, t, &self.from)?);

@@ -243,10 +243,18 @@ fn assignments(
 fn of_clocks(error: Error, info: &Info, asked: &[(String, String)]) -> Error {
     let is_memory = |name: &str| info.memories().iter().any(|memory| memory.name == name);
     match asked.iter().find(|(name, _)| is_memory(name)) {
-        Some((name, _)) => Error::Name {
-            name: name.clone(),
-            reason: "it is a memory, which its clock sets; its first value stands in the declaration".into(),
-        },
+        Some((name, _)) => {
+            let is_mode = info.modes.modes.iter().any(|mode| mode.name == name);
+            let is_stop = info.stops.iter().any(|stop| stop.name == name);
+            let reason = match (is_mode, is_stop) {
+                (true, _) => "it is a mode: `--input` takes 1 where it holds from the start, or 0",
+                (_, true) => "it is a stop: the run finds where it is rested on",
+                _ => {
+                    "it is a memory, which its clock or its condition sets; its first value stands in the declaration"
+                }
+            };
+            Error::Name { name: name.clone(), reason: reason.into() }
+        }
         None => error,
     }
 }

@@ -51,6 +51,15 @@ impl Start {
         if settings.from.is_empty() { Ok(start) } else { start.with_values(model, &settings.from) }
     }
 
+    /// The same where no mode holds: its constraints need not be met where a search or another start is to meet them.
+    pub(crate) fn without_modes(&self, info: &Info) -> Self {
+        let mut start = self.clone();
+        for mode in info.modes.modes {
+            start.inputs[mode.memory] = 0.0;
+        }
+        start
+    }
+
     /// The same with these start values of coordinates `x` and rates `der(x)` in place of the declared ones, made
     /// consistent: what is given keeps its value, the others move to the constraints.
     ///

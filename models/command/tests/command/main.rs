@@ -7,6 +7,7 @@ mod drawings;
 mod ends;
 mod files;
 mod fits;
+mod held;
 mod imports;
 mod inputs;
 mod linear;

@@ -1,0 +1,56 @@
+//! Runs and equilibria of modes that hold from the start.
+
+use std::fs;
+
+use super::{mbs, text};
+
+/// A slide on a spring of 50 N/m, and a hook, at 0.2 m. Its start is 0.5 m off the hook.
+const SLIDE: &str = "Slide {
+    dof = 1;
+    body slide (x) { mass = 1 [kg]; }
+    potential own = 50 [N/m]*x^2/2;
+    mode caught { constraint hook: x = 0.2 [m]; }
+    when x > 0.2 [m] { enter caught; }
+    output pull = lambda(hook);
+    start { x = -0.3 [m]; }
+}
+";
+
+fn told(declaration: &str, arguments: &str) -> Result<serde_json::Value, String> {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("slide.mbs"), declaration).unwrap();
+    let output = mbs(folder.path(), arguments);
+    if output.status.success() {
+        Ok(serde_json::from_slice(&output.stdout).unwrap())
+    } else {
+        Err(text(output.stderr))
+    }
+}
+
+/// Regressions: the declared start was judged where `--from` gives another one, and where an equilibrium is looked for.
+#[test]
+fn the_declared_start_may_be_off_what_holds() {
+    let declared = SLIDE.replace("mode caught", "mode caught = 1");
+    let from = "simulate slide.mbs --from x=0.2 --end 0.1 --json";
+    for (declaration, arguments) in [(SLIDE, format!("{from} --input caught=1")), (&declared, from.into())] {
+        let run = told(declaration, &arguments).unwrap();
+        let pull = run["final"]["pull"]["value"].as_f64().unwrap();
+        assert!((pull.abs() - 10.0).abs() < 1e-9, "{run}");
+    }
+    let off = told(SLIDE, "simulate slide.mbs --input caught=1 --json").unwrap_err();
+    assert!(off.contains("`hook` is off by -0.5"), "{off}");
+    for (arguments, expected) in [("", 0.2), ("--input caught=0", 0.0)] {
+        let rest = told(&declared, &format!("equilibrium slide.mbs --json {arguments}")).unwrap();
+        let x = rest["coordinates"]["x"]["value"].as_f64().unwrap();
+        assert!((x - expected).abs() < 1e-9, "{rest}");
+    }
+}
+
+/// What modes and stops remember is no memory that a clock sets.
+#[test]
+fn messages_say_what_is_set() {
+    for (value, part) in [("yes", "takes 1 where it holds"), ("0.5", "cannot be 0.5")] {
+        let message = told(SLIDE, &format!("simulate slide.mbs --input caught={value} --json")).unwrap_err();
+        assert!(message.contains("`caught`") && message.contains(part), "{message}");
+    }
+}
