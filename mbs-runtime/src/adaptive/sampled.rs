@@ -327,6 +327,9 @@ impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
                 self.put(at, &q, &v);
                 if self.run.now.t <= at {
                     self.watch(|run, watched| run.sample_and_look(false, watched))?;
+                    // what jumps at this moment has jumped, as memories have
+                    let (q, v) = (self.run.now.q.clone(), self.run.now.v.clone());
+                    self.put(at, &q, &v);
                 }
                 self.samples += 1;
                 self.pass_end();

@@ -3,7 +3,7 @@
 use mbs_live::{Run, Text};
 use mbs_runtime::lanes::Pack as Lanes;
 use mbs_runtime::{
-    Adaptive, Dop853, Dual, Error, Rattle, Real, Simulation, System, Tolerances, TrBdf2, mechanism,
+    Adaptive, Dop853, Dual, Error, Rattle, Real, Sampled, Simulation, System, Tolerances, TrBdf2, mechanism,
 };
 
 use super::{TIGHT, declared};
@@ -51,6 +51,20 @@ fn a_clutch_keeps_the_momentum() -> Result<(), Error> {
         assert!((in_steps.outputs()?.torque - torque).abs() < 1e-9);
     }
     assert_eq!((to_tolerance.inputs().engaged, to_tolerance.inputs().times), (0.0, 10.0));
+    Ok(())
+}
+
+/// Regression: a sample at the moment of entering had the mode and the velocities of before it.
+#[test]
+fn a_sample_at_a_jump_is_behind_it() -> Result<(), Error> {
+    let run = Adaptive::builder(Clutch::declared()).tolerances(TIGHT).build()?;
+    let mut run = Sampled::new(run, 0.5)?;
+    run.advance(2)?;
+    let (mut v, mut inputs) = ([0.0; 2], vec![0.0; run.described().info().inputs.len()]);
+    run.state(&mut [0.0; 2], &mut v);
+    run.inputs(&mut inputs);
+    let engaged = run.described().info().modes.modes[0].memory;
+    assert!(inputs[engaged] == 1.0 && v.iter().all(|rate: &f64| (rate - 13.0 / 3.0).abs() < 1e-9), "{v:?}");
     Ok(())
 }
 
