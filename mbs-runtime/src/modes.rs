@@ -214,7 +214,8 @@ pub(crate) fn due<T: Real>(
 /// Notes that conditions hold which a run has found: where one begins at its limit rounding keeps it there for a while. It is
 /// off where it is so by rounding of the coordinates.
 pub(crate) fn note_found<T: Real>(info: &Info, (found, size): (u32, f64), inputs: &mut [T]) {
-    for (of, transition) in info.modes.transitions.iter().enumerate().filter(|(of, _)| has(found, *of)) {
+    let all = info.modes.transitions.iter().enumerate();
+    for (_, transition) in all.filter(|(of, _)| has(found, *of)) {
         let Some(memory) = inputs.get_mut(transition.memory) else { continue };
         let side = if transition.is_rising { 1.0 } else { -1.0 };
         if side * memory.to_f64() <= 0.0 {

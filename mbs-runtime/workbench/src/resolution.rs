@@ -55,9 +55,8 @@ pub(crate) struct Resolution {
     worst: Option<Unstable>,
     /// The largest errors of velocities, and of own states, whose scales per second are these states.
     coarsest: [Option<Coarse>; 2],
-    /// After which step an implicit one is looked at, what stops have done by then, and velocities at its end by explicit
-    /// steps, twice.
-    expected: Option<(u64, f64, [Vec<f64>; 2])>,
+    /// After which step an implicit one is looked at, the memories then, and velocities at its end by explicit steps, twice.
+    expected: Option<(u64, Vec<f64>, [Vec<f64>; 2])>,
 }
 
 struct Unstable {
@@ -111,8 +110,9 @@ impl Resolution {
                 false => *scale = scale.max(v.abs()),
             }
         }
+        // what has jumped in the step is no error of it
         if let Some((_, before, [coarse, fine])) = self.expected.take_if(|(after, ..)| *after + 1 == taken)
-            && before == done_by_stops(run)
+            && memories_of_free(run) == Some(before)
         {
             self.compare(run.time(), &now.v, &fine, Some(&coarse));
         }
@@ -135,7 +135,7 @@ impl Resolution {
             Stepping::Implicit => {
                 let expected = [PARTS, 2 * PARTS]
                     .map(|parts| stepped(&DOP853, run, at, &inputs, [self.step, f64::from(parts)]));
-                self.expected = Some((taken, done_by_stops(run), expected));
+                self.expected = memories_of_free(run).map(|memories| (taken, memories, expected));
             }
         }
     }
@@ -218,13 +218,15 @@ impl Resolution {
     }
 }
 
-/// The sum of the impulses at stops: not a number while one is rested on, whose force no free step knows.
-fn done_by_stops(run: &dyn System) -> f64 {
+/// What a run remembers; nothing while a stop is rested on or a mode holds, whose forces no free step knows.
+fn memories_of_free(run: &dyn System) -> Option<Vec<f64>> {
     let info = run.equations().info();
     let mut inputs = vec![0.0; info.inputs.len()];
     run.inputs(&mut inputs);
-    let done = |at: usize| if inputs[at] > 0.5 { f64::NAN } else { inputs[at + 1] };
-    info.stops.iter().map(|stop| done(stop.memory)).sum()
+    let stops = info.stops.iter().map(|stop| stop.memory);
+    let mut held = stops.chain(info.modes.modes.iter().map(|mode| mode.memory));
+    let is_free = !held.any(|memory| inputs[memory] > 0.5);
+    is_free.then(|| info.told_memories().map(|at| inputs[at]).collect())
 }
 
 impl Stepping {

@@ -54,3 +54,24 @@ fn messages_say_what_is_set() {
         assert!(message.contains("`caught`") && message.contains(part), "{message}");
     }
 }
+
+/// Regression: implicit constant steps were doubted where a mode is entered, by the whole speed of the drum.
+#[test]
+fn what_enters_is_no_error_of_a_step() {
+    let brake = "Brake {
+        dof = 1;
+        gravity = (0, -10) [m/s^2];
+        body drum (phi) { inertia = 0.2 [kg*m^2]; }
+        body load (y) { mass = 3 [kg]; }
+        constraint rope: y = 0.1 [m]*phi;
+        mode brake { rate shoe: der(phi) = 0 [rad/s]; }
+        when y < -0.5 [m] { enter brake; }
+        when t > 2 [s] { leave brake; }
+    }";
+    for method in ["heun", "trbdf2"] {
+        let run = told(brake, &format!("simulate slide.mbs --method {method} --step 1ms --end 1.5s --json"))
+            .unwrap();
+        assert!(run["warnings"].as_array().unwrap().is_empty(), "{run}");
+        assert_eq!(run["final"]["brake"]["value"], 1.0);
+    }
+}
