@@ -47,6 +47,12 @@ impl Until {
         let value = rest.trim_start_matches(['<', '>', '=']).trim();
         let (measured, dimension, unit) = measured(info, name.trim())?;
         let value = quantity::parse_in(name.trim(), value, dimension, &unit)?;
+        let value = match measured {
+            Measured::Input(_) => {
+                beside(value, direction, rest.get(1..).is_some_and(|it| it.starts_with('=')))
+            }
+            _ => value,
+        };
         let threshold = Threshold { measured, value, direction };
         Ok(Self { text: text.to_owned(), ending: Ending::Threshold(threshold) })
     }
@@ -74,6 +80,13 @@ impl Until {
             Direction::Rising | Direction::Either => found - value,
         })
     }
+}
+
+/// A limit that a memory does not jump to but passes, beside one of a comparison: `n > 2` becomes true with 3.
+fn beside(value: f64, direction: Direction, holds_there: bool) -> f64 {
+    let little = (1e-12 * value.abs()).max(f64::MIN_POSITIVE);
+    let is_above = (direction == Direction::Rising) != holds_there;
+    if is_above { value + little } else { value - little }
 }
 
 /// What stands behind `mode =`, which may be left out.

@@ -75,3 +75,36 @@ fn what_enters_is_no_error_of_a_step() {
         assert_eq!(run["final"]["brake"]["value"], 1.0);
     }
 }
+
+/// Regression: what jumps to a limit was beyond it, `held > 1`, and what jumps from it was not, `held > 0`.
+#[test]
+fn memories_end_a_run_where_they_pass_a_limit() {
+    let counting = "Counting {
+        dof = 1;
+        body block (x) { mass = 1 [kg]; }
+        memory n [1] = 0;
+        every 0.2 [s] offset 0.1 [s] { set n = n + 1; }
+        mode held { rate brake: der(x) = 0; }
+        when t > 0.35 [s] { enter held; }
+        when t > 0.55 [s] { leave held; }
+        start { der(x) = 1 [m/s]; }
+    }";
+    for (condition, end) in [
+        ("n>0", 0.1),
+        ("n>1", 0.3),
+        ("n>=2", 0.3),
+        ("held>0", 0.35),
+        ("held>=1", 0.35),
+        ("held<1", 0.55),
+        ("held<=0", 0.55),
+        ("held>1", 1.0),
+        ("held<0", 1.0),
+        ("n>9", 1.0),
+    ] {
+        let run =
+            told(counting, &format!("simulate slide.mbs --rtol 1e-6 --end 1 --until {condition} --json"));
+        let run = run.unwrap();
+        assert!((run["final"]["t"]["value"].as_f64().unwrap() - end).abs() < 1e-9, "{condition}: {run}");
+        assert_eq!(run["unmet"].is_null(), end < 1.0, "{run}");
+    }
+}
