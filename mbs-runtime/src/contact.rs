@@ -367,8 +367,9 @@ mod tests {
         let values: Vec<f64> = w.into_iter().flatten().chain([1.0, 1.0, 1.0, 0.0]).collect();
         let contacts = Contacts { stops: 3, locks: 3, coordinates: 0, constraints: 0, values: &values };
         assert_eq!([0b111, 0b101, 0b110].map(|set| contacts.kept_closed(set, 0)), [0b011, 0, 0]);
-        // a mode that holds the other one
-        assert_eq!(contacts.kept_closed(0b110, 0b100), 0);
-        assert_eq!(contacts.kept_closed(0b001, 0b010), 0b001);
+        // a stop whose gap a mode holds, behind it
+        let values = [1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 0.0];
+        let contacts = Contacts { stops: 2, locks: 1, coordinates: 0, constraints: 0, values: &values };
+        assert_eq!((contacts.kept_closed(0b01, 0b10), contacts.kept_closed(0b01, 0)), (0b01, 0));
     }
 }

@@ -208,7 +208,8 @@ mod tests {
     fn a_mode_is_entered() {
         for text in ["held", "mode=held", "mode = held"] {
             let Ok(Ending::Threshold(found)) = read(text) else { panic!("{text} is a mode") };
-            assert_eq!((found.measured, found.direction), (Measured::Input(2), Direction::Rising));
+            let held = <Door as mbs_runtime::Mechanism>::INFO.modes.modes[0].memory;
+            assert_eq!((found.measured, found.direction), (Measured::Input(held), Direction::Rising));
         }
     }
 

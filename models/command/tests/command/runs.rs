@@ -373,7 +373,7 @@ fn events_and_conditions_that_end_a_run() {
     // an event that does not come, a name that is none, and a method that finds no events
     assert_eq!(json("--until shelf --end 0.5s")["unmet"].as_str(), Some("shelf"));
     for (options, part) in [
-        ("--until self", "or a declared event (`top`, `shelf`)"),
+        ("--until self", "or what is declared so (`top`, `shelf`)"),
         ("--until shelf --method rattle", "`until` cannot be used"),
         ("--rtol 1e-6 --method rattle", "`rtol` cannot be used"),
         ("--rtol 0", "rtol is 0.0"),
