@@ -63,7 +63,8 @@ pub fn meets_modes(
     let (values, size) = contacts(mechanism, t, q);
     let off = |row: usize| values.get(row).copied().unwrap_or(0.0);
     // written so that a NaN is off
-    match locked(mechanism.info(), inputs).find(|(row, _)| !(off(*row).abs() <= size)) {
+    let is_met = |row: usize| off(row).abs() <= size;
+    match locked(mechanism.info(), inputs).find(|(row, _)| !is_met(*row)) {
         Some((row, lock)) => Err(mbs_runtime::Error::Apart { t, constraint: lock.name, by: off(row) }.into()),
         None => Ok(()),
     }
