@@ -31,7 +31,7 @@ const OPERATIONS: f64 = 64.0;
 /// A pivot below this share of its row depends on those before it: these stops press one way.
 pub(crate) const DEPENDENT: f64 = 1e-10;
 
-/// What is no more than this share is rounding: at least that of some operations in the scalar.
+/// The share below which a value is rounding: at least that of some operations in the scalar.
 pub(crate) fn share<T: Real>(least: f64) -> f64 {
     least.max(OPERATIONS * T::EPSILON.to_f64())
 }
@@ -127,7 +127,7 @@ impl<'a, T: Real> Contacts<'a, T> {
         self.values.get(at).copied().unwrap_or_default()
     }
 
-    /// What that of its own rate would be without joints; where no mass tells, as it is.
+    /// The mobility of a row by its own impulse if there were no joints; where masses do not determine it, the one with joints.
     fn free_mobility(&self, row: usize) -> f64 {
         let at = self.stops * (self.each() + self.stops) + row;
         let free = self.values.get(at).map_or(0.0, |free| free.to_f64());

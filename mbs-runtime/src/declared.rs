@@ -39,7 +39,7 @@ pub struct Modes {
     pub modes: &'static [DeclaredMode],
     /// Their constraints.
     pub locks: &'static [DeclaredLock],
-    /// What happens where a condition begins to hold.
+    /// Their transitions.
     pub transitions: &'static [DeclaredTransition],
 }
 
@@ -72,7 +72,7 @@ pub struct DeclaredLock {
     pub formula: &'static str,
 }
 
-/// What is set where a condition begins to hold: a sample, as a clock takes them.
+/// A transition: a sample, as a clock takes them, at the moment in which a condition begins to hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeclaredTransition {
     /// The condition as it was written.

@@ -170,8 +170,8 @@ impl<T: Real> Halting<T> {
         it
     }
 
-    /// What leads back to where they were what stuck in the whole step, and to the constraints of modes; stops that are rested
-    /// on stay where they are.
+    /// The impulses of positions that lead back what stuck in the whole step, and lead to the constraints of modes. Stops that
+    /// are rested on stay closed.
     fn back(
         &self,
         contacts: &Contacts<'_, T>,

@@ -81,19 +81,19 @@ pub(crate) fn do_not_contradict(
     })
 }
 
-/// How far constraints may be off where their mode is entered, given Σ |∂g/∂q|.
+/// The most by which a constraint may be off where its mode is entered, given Σ |∂g/∂q|.
 pub(crate) fn allowed<T: Real>(size: f64, slope: f64) -> f64 {
     share::<T>(CLOSED) * (LEAST_SIZE + size) * slope
 }
 
-/// How much of a constraint, or its rate, is that of joints which are off: twice Σ |μ Φ|, μ the multipliers of a unit impulse along
+/// The part of a constraint, or of its rate, by which joints are off: twice Σ |μ Φ|, μ the multipliers of a unit impulse along
 /// it.
 fn of_joints<T: Real>(contacts: &Contacts<'_, T>, row: usize, off: &[T]) -> f64 {
     let terms = contacts.reactions(row).iter().zip(off);
     2.0 * terms.map(|(reaction, off)| (*reaction * *off).to_f64().abs()).sum::<f64>()
 }
 
-/// How much may be left behind impulses of rates up to one: more is left where constraints depend on others.
+/// The most that impulses may leave of rates up to one: they leave more where constraints depend on others.
 pub(crate) fn left_of<T: Real>(fastest: f64) -> f64 {
     share::<T>(LEFT) * fastest
 }
@@ -211,8 +211,8 @@ pub(crate) fn due<T: Real>(
     (due, seen)
 }
 
-/// Notes that conditions hold which a run has found: where one begins at its limit rounding keeps it there for a while. It is
-/// off where it is so by rounding of the coordinates.
+/// Notes that the conditions hold that a run has found. One that begins at its limit stays there within rounding for a while: it
+/// holds until it is off by more than rounding of the coordinates.
 pub(crate) fn note_found<T: Real>(info: &Info, (found, size): (u32, f64), inputs: &mut [T]) {
     let all = info.modes.transitions.iter().enumerate();
     for (_, transition) in all.filter(|(of, _)| has(found, *of)) {

@@ -165,7 +165,7 @@ struct Striking<'a, T> {
     locked: u32,
     restitutions: &'a Each<T>,
     ends: &'a Ends<T>,
-    /// How far gaps may be behind their stops where modes lead them.
+    /// The depths by which gaps may be behind their stops where modes lead them.
     allowed: &'a Each<f64>,
     /// ġ − ġ₀
     change: Each<T>,

@@ -1,4 +1,4 @@
-//! What methods and analyses refuse of a mechanism.
+//! Refusals of mechanisms by methods and analyses.
 
 use crate::{Error, Info};
 

@@ -1,7 +1,7 @@
 //! A mechanism that rests on some of its stops, with the modes that hold: their gaps and constraints are rows of it.
 //!
-//! What asks for equilibria and small motions sees one mechanism more, with a row behind the declared ones for each constraint
-//! of a mode that holds and, behind these, a row g = 0 for each stop; and as many degrees of freedom less. The rows are not
+//! Searches of equilibria and linear systems see another mechanism. Behind its declared rows stands one for each constraint of
+//! a mode that holds, and behind these a row g = 0 for each stop; it has as many degrees of freedom less. The rows are not
 //! eliminated: responses to unit impulses along them add them to what the mechanism solves without them. The memories of the
 //! stops are those of the set, whatever a run has left in them.
 

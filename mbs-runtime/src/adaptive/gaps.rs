@@ -12,7 +12,7 @@ use crate::sticking::{all_frictions, direction};
 use crate::vectors;
 use crate::{Info, Real, modes};
 
-/// What a mode holds is met within so many times the tolerance.
+/// The constraints of a mode are met within so many times the tolerance.
 const TOLERANCES: f64 = 100.0;
 
 /// The memory of a run of its stops.
@@ -125,7 +125,7 @@ pub(super) fn value<D: Dynamics>(
     })
 }
 
-/// What a run watches by itself whose events are among these.
+/// The contacts and transitions whose events are among these.
 pub(super) fn among(happened: u64, info: &Info) -> u32 {
     happened.reverse_bits() as u32 & of_run(info)
 }

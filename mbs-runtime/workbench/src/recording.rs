@@ -38,7 +38,7 @@ pub struct Recording {
     pub coordinates: usize,
     /// How many of these are coordinates of bodies.
     pub lines: usize,
-    /// How many of the columns, before that of the violation, are memories.
+    /// The number of columns of memories, which stand before that of the violation.
     pub memories: usize,
     /// The summary.
     pub summary: Summary,

@@ -218,7 +218,7 @@ impl Resolution {
     }
 }
 
-/// What a run remembers; nothing while a stop is rested on or a mode holds, whose forces no free step knows.
+/// The memories of a run; nothing while a stop is rested on or a mode holds, whose forces no free step knows.
 fn memories_of_free(run: &dyn System) -> Option<Vec<f64>> {
     let info = run.equations().info();
     let mut inputs = vec![0.0; info.inputs.len()];

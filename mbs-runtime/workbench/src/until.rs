@@ -89,7 +89,7 @@ fn beside(value: f64, direction: Direction, holds_there: bool) -> f64 {
     if is_above { value + little } else { value - little }
 }
 
-/// What stands behind `mode =`, which may be left out.
+/// The name behind `mode =`, which may be left out.
 fn of_mode(text: &str) -> &str {
     let named = text.strip_prefix("mode").and_then(|rest| rest.trim_start().strip_prefix('='));
     named.map_or(text, str::trim)

@@ -161,7 +161,7 @@ fn random_modes_take_energy_and_hold() {
     assert!(held > count, "{held} samples of modes that hold");
 }
 
-/// How many samples of a run see a mode that holds.
+/// The number of samples of a run at which a mode holds.
 fn held_by(run: &mut dyn System, (steps, allowed): (u64, f64), stops: usize, text: &str) -> u64 {
     let info = *run.described().info();
     let (n, m, mut last, mut held) = (info.coordinates.len(), info.constraints.len(), f64::INFINITY, 0);

@@ -223,7 +223,7 @@ fn errors(text: &str) -> [Option<Error>; 2] {
     [to_tolerance, in_steps]
 }
 
-/// What cannot be entered, and what has no end.
+/// Modes that cannot be entered, and conditions that follow each other without an end.
 #[test]
 fn errors_name_what_is_wrong() {
     let text = |rest: &str| {

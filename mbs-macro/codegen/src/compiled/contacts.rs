@@ -52,7 +52,7 @@ pub struct Lock {
     pub span: Span,
 }
 
-/// What is set where a condition begins to hold; see [`FunctionId::Transitions`](super::FunctionId::Transitions).
+/// A transition: memories that are set where a condition begins to hold; see [`FunctionId::Transitions`](super::FunctionId::Transitions).
 pub struct Transition {
     /// The condition as it was written.
     pub text: String,

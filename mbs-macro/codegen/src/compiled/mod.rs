@@ -132,7 +132,7 @@ pub struct Compiled {
     pub modes: Vec<Mode>,
     /// Their constraints.
     pub locks: Vec<Lock>,
-    /// What enters and leaves them, and sets memories.
+    /// The conditions that enter and leave them, and set memories.
     pub transitions: Vec<Transition>,
     /// Row and column of every result of [`FunctionId::PhiQ`].
     pub jacobian: Vec<(usize, usize)>,

@@ -350,7 +350,7 @@ pub struct Lock {
     pub span: Span,
 }
 
-/// What is set where a value changes its sign.
+/// A transition: memories that are set where a value changes its sign.
 pub struct Transition {
     pub value: Expr,
     pub is_rising: bool,

@@ -127,7 +127,7 @@ impl Resolver<'_> {
         None
     }
 
-    /// Whether a mode holds at first.
+    /// Refuses a first value of a mode that is neither 0 nor 1.
     pub(super) fn check_mode(&mut self, name: &Ident, value_span: proc_macro2::Span) {
         let value = self.inputs.iter().find(|input| *name == input.quantity.name).map(|input| input.value);
         if value.is_some_and(|value| value != 0.0 && value != 1.0) {

@@ -65,7 +65,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// What stands before the head of a block.
+    /// The doc comment and the keyword of a block.
     fn begin(&mut self, content: ParseStream<'_>) -> Result<(usize, String, Span)> {
         let doc = doc(content)?;
         let keyword = content.call(Ident::parse_any)?.span();
@@ -112,7 +112,7 @@ impl Reader<'_> {
     }
 }
 
-/// What stands before a block, with the values of indices.
+/// The head of a block, with the values of indices.
 fn head<T>(content: ParseStream<'_>, indices: &Indices, read: fn(ParseStream<'_>) -> Result<T>) -> Result<T> {
     let head: TokenStream = before_block(content.fork());
     match indices.resolve(head.clone()) {

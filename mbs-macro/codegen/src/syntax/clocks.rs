@@ -47,7 +47,7 @@ pub(super) fn set(input: ParseStream<'_>) -> Result<ItemKind> {
     Ok(ItemKind::Set(Set { prefix, memory, value, is_of_mode: false }))
 }
 
-/// What is done at a moment.
+/// True of the words with which a statement of a moment begins.
 pub(super) fn is_set(word: &Ident) -> bool {
     ["set", "enter", "leave"].iter().any(|known| word == known)
 }

@@ -46,7 +46,7 @@ fn the_declared_start_may_be_off_what_holds() {
     }
 }
 
-/// What modes and stops remember is no memory that a clock sets.
+/// Messages do not call a mode a memory that a clock sets.
 #[test]
 fn messages_say_what_is_set() {
     for (value, part) in [("yes", "takes 1 where it holds"), ("0.5", "cannot be 0.5")] {

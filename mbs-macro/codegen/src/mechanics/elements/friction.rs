@@ -223,7 +223,7 @@ fn bristles<'a>(friction: &Element<'a>, speed: Scalar<'a>, effects: &mut Effects
     Some(share + relaxation * rate / sliding)
 }
 
-/// What varies counts as 0 where it is negative: friction does not push.
+/// A size that counts as 0 where it varies and becomes negative: friction does not push.
 fn braking(size: Scalar<'_>) -> Scalar<'_> {
     let is_negative_nowhere = matches!(size.function(), Some(Function::Abs | Function::Sqrt | Function::Exp));
     if is_negative_nowhere || size.stage() < Stage::Variable {

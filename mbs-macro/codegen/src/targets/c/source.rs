@@ -63,7 +63,7 @@ fn contacts(compiled: &Compiled) -> String {
     }
 }
 
-/// What may jump at the end of a step: velocities at stops and where modes are entered, and memories by transitions.
+/// The functions of jumps at the end of a step: of velocities at stops and where modes are entered, of memories by transitions.
 fn jumps(compiled: &Compiled) -> String {
     if !compiled.jumps() {
         let has_samples = !compiled.sampling.samples.is_empty();
