@@ -27,8 +27,8 @@ pub enum Error {
     Mechanism(#[from] mbs_runtime::Error),
     /// A mechanism whose motion is prescribed.
     #[error(
-        "`{mechanism}` has no degree of freedom: its drives and constraints determine where it is; \
-         take a drive away to ask how it vibrates"
+        "`{mechanism}` has no degree of freedom here: drives, joints, stops that it rests on and modes that hold \
+         determine where it is; ask without one of them how it vibrates"
     )]
     NoFreedom {
         /// The name of the mechanism.
