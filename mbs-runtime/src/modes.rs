@@ -17,7 +17,7 @@
 use crate::changes::Changes;
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share};
 use crate::equations::{At, Equations};
-use crate::locks::{all_stops, locked, locks, placed};
+use crate::locks::{all_stops, locked, placed};
 use crate::mechanism::growth_limit;
 use crate::pressing::held;
 use crate::sticking::unanswered;
@@ -57,7 +57,7 @@ pub(crate) fn are_met(
 ) -> Result<(), Error> {
     // written so that a NaN is not met
     let is_met = |row: usize| off(row).abs() <= allowed(row);
-    match locks(info).find(|(row, _)| has(set, *row) && !is_met(*row)) {
+    match info.locks().find(|(row, _)| has(set, *row) && !is_met(*row)) {
         Some((row, lock)) => Err(Error::Apart { t, constraint: lock.name, by: off(row) }),
         None => Ok(()),
     }

@@ -14,7 +14,7 @@
 
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share, those};
 use crate::equations::{At, Equations};
-use crate::locks::{all_stops, locked, locks, note_multipliers};
+use crate::locks::{all_stops, locked, note_multipliers};
 use crate::pressing::{held, pressed};
 use crate::{Error, Info, Real, vectors};
 
@@ -243,7 +243,7 @@ pub(crate) fn decide<T: Real>(
 /// Nothing answers the first of a set of stops and frictions.
 pub(crate) fn unanswered(info: &Info, t: f64, set: u32) -> Error {
     let row = set.trailing_zeros() as usize;
-    if let Some((_, lock)) = locks(info).find(|(of, _)| *of == row) {
+    if let Some((_, lock)) = info.locks().find(|(of, _)| *of == row) {
         return Error::Contradiction { t, constraint: lock.name, rate: f64::NAN };
     }
     match row.checked_sub(info.stops.len()).and_then(|at| info.frictions.get(at)) {

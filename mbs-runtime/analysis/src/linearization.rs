@@ -10,7 +10,7 @@ use crate::chart::Chart;
 use crate::derivative::{Derivatives, Direction, Values, size_of_state};
 use crate::family::{Family, Varied};
 use crate::resting::Resting;
-use crate::stops::rows_at;
+use crate::stops::{not_by_parameters, rows_at};
 use crate::{Error, OperatingPoint, Signal, Variable};
 
 /// A rate in 1/s that is slower than any mechanism.
@@ -166,16 +166,7 @@ pub fn linearize(
     info.refuse_sticking("a linear system")?;
     match rows_at(mechanism, point)?[..] {
         [] if info.stops.is_empty() || !ports.parameters.is_empty() => on_its_rows(mechanism, point, ports),
-        [row, ..] if !ports.parameters.is_empty() => Err(match (info.stops.get(row), info.modes.modes) {
-            (None, [mode, ..]) => {
-                let what = "a linear system by parameters about a mode that holds";
-                mbs_runtime::Error::Modes { what, mode: mode.name }.into()
-            }
-            (stop, _) => {
-                let what = "a linear system by parameters about a closed stop";
-                mbs_runtime::Error::Stops { what, stop: stop.map_or("", |stop| stop.name) }.into()
-            }
-        }),
+        [row, ..] if !ports.parameters.is_empty() => Err(not_by_parameters(info, row).into()),
         ref rows => on_its_rows(&Resting::new(mechanism, rows), point, ports),
     }
 }

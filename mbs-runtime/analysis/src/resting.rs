@@ -109,7 +109,7 @@ fn constraint(info: &Info, row: usize) -> Option<Constraint> {
         let (name, doc, formula, dimension) = (stop.name, stop.doc, stop.formula, stop.dimension);
         return Some(Constraint { name, doc, formula, is_drive, is_rate, dimension });
     }
-    let lock = info.modes.locks.get(row.checked_sub(info.stops.len() + info.frictions.len())?)?;
+    let (_, lock) = info.locks().find(|(of, _)| *of == row)?;
     let (name, formula, is_rate) = (lock.name, lock.formula, lock.is_rate);
     // λ does work on Φ
     let dimension = Dimension::of(1, 2, -2).over(info.inputs.get(lock.held)?.dimension);

@@ -35,8 +35,7 @@ fn gaps(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
 
 /// The rows of the modes that hold, with their names.
 fn locked(info: &Info, inputs: &[f64]) -> impl Iterator<Item = (usize, &'static DeclaredLock)> {
-    let locks = (info.stops.len() + info.frictions.len()..).zip(info.modes.locks);
-    locks.filter(|(_, lock)| inputs.get(lock.mode).is_some_and(|mode| *mode > 0.5))
+    info.locks().filter(|(_, lock)| inputs.get(lock.mode).is_some_and(|mode| *mode > 0.5))
 }
 
 /// The rows of the modes that hold, as far as they are independent of each other and of the constraints at a position.
@@ -203,6 +202,22 @@ pub fn rows_at(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result
         Some(stop) => {
             let what = "a linear system about a position that touches a stop without force";
             Err(mbs_runtime::Error::Stops { what, stop: info.stops[stop].name }.into())
+        }
+    }
+}
+
+/// Why there is no linear system by parameters about a row of a stop or of a mode.
+pub fn not_by_parameters(info: &Info, row: usize) -> mbs_runtime::Error {
+    let lock = info.locks().find(|(of, _)| *of == row);
+    let mode = lock.and_then(|(_, lock)| info.modes.modes.iter().find(|mode| mode.memory == lock.mode));
+    match mode {
+        Some(mode) => {
+            let what = "a linear system by parameters about a mode that holds";
+            mbs_runtime::Error::Modes { what, mode: mode.name }
+        }
+        None => {
+            let what = "a linear system by parameters about a closed stop";
+            mbs_runtime::Error::Stops { what, stop: info.stops.get(row).map_or("", |stop| stop.name) }
         }
     }
 }

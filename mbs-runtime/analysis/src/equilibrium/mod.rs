@@ -303,8 +303,8 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let mut of_modes = found.multipliers.split_off(info.constraints.len());
     let of_stops = of_modes.split_off(held.len());
     found.rests = stops.into_iter().zip(of_stops.into_iter().map(|multiplier| -multiplier)).collect();
-    let first = info.contacts() - info.modes.locks.len();
-    found.held = held.into_iter().map(|row| row - first).zip(of_modes).collect();
+    let place = |row: usize| info.locks().position(|(of, _)| of == row);
+    found.held = held.into_iter().filter_map(place).zip(of_modes).collect();
     for (at, multiplier) in &found.held {
         found.inputs[info.modes.locks[*at].held] = *multiplier;
     }
