@@ -12,10 +12,14 @@
 //!   there is an impulse (Newton's law; Glocker 2001 for several at once). Energy does not grow for e ≤ 1;
 //! * of a rest x is λ, and b the second derivative g̈ without it.
 //!
+//! Where a stop rubs, x of its friction is −μ d times x of the stop while that slides in the direction d, and what holds it, of
+//! any sign, while it sticks: the [column](Contacts::sliding) of the stop takes that in.
+//!
 //! W is positive semidefinite. Pivots by the least index (Murty 1974), and exchanges where stops depend on each other, end after
 //! finitely many, and there are few stops.
 
 use crate::Real;
+use crate::declared::DeclaredFriction;
 use crate::equations::{At, Equations};
 pub(crate) use crate::info::MOST_CONTACTS;
 
@@ -66,11 +70,15 @@ impl<T: Real> Gaps<T> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contacts<'a, T> {
     stops: usize,
-    /// The first constraint of a mode: these stand behind stops and frictions.
+    /// The frictions that stick: they stand behind the stops,
+    frictions: (usize, &'static [DeclaredFriction]),
+    /// and the first constraint of a mode behind them.
     locks: usize,
     coordinates: usize,
     constraints: usize,
     values: &'a [T],
+    /// How many times the x of a stop is that of what slides on it.
+    slides: Each<T>,
 }
 
 impl<'a, T: Real> Contacts<'a, T> {
@@ -82,20 +90,54 @@ impl<'a, T: Real> Contacts<'a, T> {
     ) -> Option<R> {
         let info = equations.info();
         let (stops, coordinates) = (info.contacts(), info.coordinates.len());
-        let locks = info.watched_contacts();
-        let constraints = info.constraints.len();
+        let (locks, frictions) = (info.watched_contacts(), (info.stops.len(), info.frictions));
+        let (constraints, slides) = (info.constraints.len(), [T::ZERO; MOST_CONTACTS]);
         let (mut what, mut result) = (Some(what), None);
         equations.contacts(t, q, &mut |values| {
             if let Some(what) = what.take() {
-                result = Some(what(Contacts { stops, locks, coordinates, constraints, values }));
+                let contacts =
+                    Contacts { stops, frictions, locks, coordinates, constraints, values, slides };
+                result = Some(what(contacts));
             }
         });
         result
     }
 
+    /// With what slides on stops: x of the friction of a stop is so many times that of the stop.
+    pub fn sliding(self, slides: Each<T>) -> Self {
+        Self { slides, ..self }
+    }
+
     /// The number of stops.
     pub fn stops(&self) -> usize {
         self.stops
+    }
+
+    /// The frictions of stops, with these.
+    pub fn rubbing(&self) -> impl Iterator<Item = (usize, usize)> + use<T> {
+        let (first, frictions) = self.frictions;
+        (first..).zip(frictions).filter_map(|(row, friction)| Some((row, friction.stop?)))
+    }
+
+    /// True if the friction of a stop has one in a set; of any other row.
+    fn is_borne(&self, row: usize, set: u32) -> bool {
+        let at = row.checked_sub(self.frictions.0);
+        let stop = at.and_then(|at| self.frictions.1.get(at)).and_then(|friction| friction.stop);
+        stop.is_none_or(|stop| has(set, stop))
+    }
+
+    /// The friction that slides on a stop, and how many times the x of the stop its x is.
+    fn slide(&self, stop: usize) -> Option<(usize, T)> {
+        let slide = *self.slides.get(stop)?;
+        let slides = slide.to_f64() != 0.0 || T::ORDER > 0;
+        let row = self.rubbing().find(|(_, of)| slides && *of == stop);
+        row.map(|(row, _)| (row, slide))
+    }
+
+    /// The change of the rate of one gap by a unit impulse at a stop, and by that of what slides on it.
+    pub fn slid_mobility(&self, of: usize, by: usize) -> T {
+        let own = self.mobility(of, by);
+        self.slide(by).map_or(own, |(row, slide)| own + slide * self.mobility(of, row))
     }
 
     fn each(&self) -> usize {
@@ -145,7 +187,8 @@ impl<'a, T: Real> Contacts<'a, T> {
         let (mut members, mut count) = ([0; MOST_CONTACTS], 0);
         // modes hold before stops press, and these before friction holds, where they depend on each other
         let locks = those(self.stops, |row| row >= self.locks && has(set, row)).count_ones() as usize;
-        for stop in (self.locks..self.stops).chain(0..self.locks).filter(|stop| has(set, *stop)) {
+        let is_member = |row: &usize| has(set, *row) && self.is_borne(*row, set);
+        for stop in (self.locks..self.stops).chain(0..self.locks).filter(is_member) {
             if let Some(member) = members.get_mut(count) {
                 *member = stop;
                 count += 1;
@@ -154,7 +197,7 @@ impl<'a, T: Real> Contacts<'a, T> {
         let members = members.get(..count).unwrap_or_default();
         for (row, &of) in rows.iter_mut().zip(members) {
             for (entry, &by) in row.iter_mut().zip(members) {
-                *entry = self.mobility(of, by);
+                *entry = self.slid_mobility(of, by);
             }
             if let (Some(last), Some(b)) = (row.last_mut(), b.get(of)) {
                 *last = -*b;
@@ -167,6 +210,10 @@ impl<'a, T: Real> Contacts<'a, T> {
             if let Some(to) = solution.get_mut(stop) {
                 *to = x;
             }
+            let slide = self.slide(stop).and_then(|(row, slide)| Some((solution.get_mut(row)?, slide)));
+            if let Some((to, slide)) = slide {
+                *to = slide * x;
+            }
         }
         solution
     }
@@ -178,7 +225,10 @@ impl<'a, T: Real> Contacts<'a, T> {
         let mut active = if bound & set == 0 { 0 } else { set };
         for _ in 0..MOST_PIVOTS {
             let x = self.solve(active, b);
-            let Some(wrong) = self.least_wrong(set & !bound, active, b, &x) else { return Some((active, x)) };
+            let Some(wrong) = self.least_wrong(set & !bound, active, b, &x) else {
+                let held = those(self.stops, |row| has(active, row) && self.is_borne(row, active));
+                return Some((held, x));
+            };
             // an active one that closes all the same depends on others: it takes the place of one of them
             let is_dependent = has(active, wrong) && number(&x, wrong) == 0.0;
             active ^= bit(if is_dependent { self.exchanged(active, (wrong, bound), &x)? } else { wrong });
@@ -199,7 +249,7 @@ impl<'a, T: Real> Contacts<'a, T> {
     /// The first active stop whose impulse becomes 0 where that of one grows that depends on them.
     fn exchanged(&self, active: u32, (by, bound): (usize, u32), x: &Each<T>) -> Option<usize> {
         let column =
-            core::array::from_fn(|of| if of < self.stops { -self.mobility(of, by) } else { T::default() });
+            core::array::from_fn(|of| if of < self.stops { -self.slid_mobility(of, by) } else { T::default() });
         let shares = self.solve(active & !bit(by), &column);
         let ratio = |stop: usize| number(x, stop) / number(&shares, stop);
         let is_shrinking =
@@ -255,7 +305,7 @@ impl<'a, T: Real> Contacts<'a, T> {
     }
 }
 
-/// Gauss's elimination of the first rows, symmetric and positive semidefinite, with their right sides behind them: of some
+/// Gauss's elimination of the first rows, symmetric and positive semidefinite but for what slides, with their right sides behind them: of some
 /// in the order of their pivots, and of the others in which they stand. A pivot is rounding beside what it was before the
 /// others; of the first ones, which hold where joints may hold, too, also beside what W would be without joints.
 fn eliminate<T: Real>(
@@ -322,11 +372,17 @@ mod tests {
 
     use super::{Contacts, MOST_CONTACTS};
 
-    /// Responses that have W alone.
+    /// Responses of so many rows that have W alone, the constraints of modes from one of them on.
+    fn responses([stops, locks]: [usize; 2], values: &[f64]) -> Contacts<'_, f64> {
+        let slides = [0.0; MOST_CONTACTS];
+        Contacts { stops, frictions: (stops, &[]), locks, coordinates: 0, constraints: 0, values, slides }
+    }
+
+    /// x of stops that have W alone.
     fn solved<const N: usize>(w: [[f64; N]; N], b: [f64; N]) -> Option<(u32, [f64; N])> {
         let mut values: Vec<f64> = w.into_iter().flatten().collect();
         values.extend((0..N).map(|row| w[row][row]).chain([0.0]));
-        let contacts = Contacts { stops: N, locks: N, coordinates: 0, constraints: 0, values: &values };
+        let contacts = responses([N, N], &values);
         let mut all = [0.0; MOST_CONTACTS];
         all[..N].copy_from_slice(&b);
         let (active, x) = contacts.complementary((1 << N) - 1, 0, &all)?;
@@ -365,11 +421,11 @@ mod tests {
         // a block that fits between two walls, and another one before a third
         let w = [[1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let values: Vec<f64> = w.into_iter().flatten().chain([1.0, 1.0, 1.0, 0.0]).collect();
-        let contacts = Contacts { stops: 3, locks: 3, coordinates: 0, constraints: 0, values: &values };
+        let contacts = responses([3, 3], &values);
         assert_eq!([0b111, 0b101, 0b110].map(|set| contacts.kept_closed(set, 0)), [0b011, 0, 0]);
         // a stop whose gap a mode holds, behind it
         let values = [1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 0.0];
-        let contacts = Contacts { stops: 2, locks: 1, coordinates: 0, constraints: 0, values: &values };
+        let contacts = responses([2, 1], &values);
         assert_eq!((contacts.kept_closed(0b01, 0b10), contacts.kept_closed(0b01, 0)), (0b01, 0));
     }
 }

@@ -20,7 +20,7 @@ pub struct DeclaredStop {
     pub formula: &'static str,
 }
 
-/// Friction that is declared with `law = coulomb`: it holds still what does not overcome it.
+/// Friction that is declared with `law = coulomb`, or at a stop: it holds still what does not overcome it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeclaredFriction {
     /// Its name.
@@ -30,6 +30,8 @@ pub struct DeclaredFriction {
     pub memory: usize,
     /// The size of the force while it slides, and the largest one with which it sticks, unless they are too long to read.
     pub limits: [&'static str; 2],
+    /// The stop that it rubs on by its place, of whose force the limits are shares then.
+    pub stop: Option<usize>,
 }
 
 /// The modes of a mechanism: constraints that come and go, and what enters and leaves them.

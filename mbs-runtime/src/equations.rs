@@ -113,7 +113,7 @@ pub trait Equations<T: Real> {
     /// Writes those values.
     fn switches(&self, _at: At<'_, T>, _inputs: &[T], _values: &mut [T]) {}
 
-    /// Writes restitution and settling of every stop; see [`Mechanism::stop_laws`].
+    /// Writes restitution and settling of every stop, and the friction of those that rub; see [`Mechanism::stop_laws`].
     fn stop_laws(&self, _laws: &mut [T]) {}
 
     /// Writes the gap of every stop, its rate and its second derivative; see [`Mechanism::gaps`].

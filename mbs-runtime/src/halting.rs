@@ -19,8 +19,8 @@ use crate::equations::{At, Equations};
 use crate::locks::{locked, placed};
 use crate::mechanism::growth_limit;
 use crate::pressing::{held, pressed};
-use crate::sticking::{Limits, all_frictions, direction, frictions, hold, holding, loose, set, unanswered};
-use crate::{Error, Info, Real, vectors};
+use crate::sticking::{Limits, direction, free_frictions, frictions, hold, holding, loose, set, unanswered};
+use crate::{Error, Info, Real, rubbing, vectors};
 
 /// Frictions at the end of a step.
 struct Halting<T> {
@@ -52,8 +52,11 @@ pub(crate) fn halt<T: Real>(
     inputs: &mut [T],
 ) -> Result<bool, Error> {
     let info = equations.info();
-    let (friction, locked) = (all_frictions(info), locked(info, inputs));
+    let (friction, locked) = (free_frictions(info), locked(info, inputs));
     if friction | locked == 0 {
+        if rubbing::all_rubbing(info) != 0 {
+            hold(equations, At { t, q, v }, inputs, [changes.q, changes.rows]);
+        }
         return Ok(false);
     }
     let now = Gaps::of(equations, At { t, q, v }, changes.still);
@@ -67,12 +70,14 @@ pub(crate) fn halt<T: Real>(
         let resting = held(equations, inputs) & !friction;
         let at = At { t, q, v };
         equations.free_reactions(at, inputs, changes.q, changes.rows);
-        pressed(equations, at, inputs, changes.q, Some(&mut *changes.rows));
-        let limits = Limits::of(equations, at, inputs, [changes.q, changes.rows]);
+        let (_, forces) = pressed(equations, at, inputs, changes.q, Some(&mut *changes.rows));
+        let limits = Limits::of(equations, at, inputs, ([changes.q, changes.rows], &forces));
+        let slides = rubbing::sliding(equations, inputs);
         let was = Gaps::of(equations, before, changes.still);
         vectors::fill(changes.q, T::ZERO);
         vectors::fill(changes.v, T::ZERO);
         let answered = Contacts::at(equations, (t, q), |contacts| {
+            let contacts = contacts.sliding(slides);
             let sets = [pushed & friction, resting];
             let (halting, impulses) =
                 Halting::answered(info, &contacts, (h, sets), [&was.rate, &rates], (&limits, memory))?;
@@ -100,7 +105,8 @@ pub(crate) fn halt<T: Real>(
 
 /// The frictions that go against the directions in which they slid.
 fn crossing<T: Real>(info: &Info, rates: &Each<T>, memory: impl Fn(usize) -> (f64, T)) -> u32 {
-    let crossed = frictions(info).filter(|(row, _)| memory(*row).0 * number(rates, *row) < 0.0);
+    let free = frictions(info).filter(|(row, _)| has(free_frictions(info), *row));
+    let crossed = free.filter(|(row, _)| memory(*row).0 * number(rates, *row) < 0.0);
     crossed.fold(0, |set, (row, _)| set | bit(row))
 }
 

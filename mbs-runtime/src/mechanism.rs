@@ -334,7 +334,7 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     fn switches(&self, _at: &State<Self::Coordinates>, _inputs: &Self::Inputs, _values: &mut [Self::Real]) {}
 
     /// Writes the restitution of every [stop](Info::stops), and the share of its longest flight below which it is not left
-    /// again.
+    /// again; behind them the coefficients of friction of those that rub.
     fn stop_laws(&self, _laws: &mut [Self::Real]) {}
 
     /// Writes the gap of every stop, its rate and its second derivative with given accelerations; then the same of the way

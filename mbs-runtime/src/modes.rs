@@ -20,8 +20,9 @@ use crate::equations::{At, Equations};
 use crate::locks::{all_stops, locked, placed};
 use crate::mechanism::growth_limit;
 use crate::pressing::held;
+use crate::rubbing::{Bounds, Hit};
 use crate::sticking::unanswered;
-use crate::{Error, Info, Real, vectors};
+use crate::{Error, Info, Real, rubbing, vectors};
 
 /// So often transitions follow each other at one moment.
 const IN_SEQUENCE: usize = 16;
@@ -106,7 +107,7 @@ pub(crate) fn engage<T: Real>(
     equations: &dyn Equations<T>,
     (h, changes): (T, Changes<'_, T>),
     (t, q, v): (T, &[T], &mut [T]),
-    inputs: &[T],
+    inputs: &mut [T],
 ) -> Result<(), Error> {
     let info = equations.info();
     let locked = locked(info, inputs);
@@ -118,6 +119,9 @@ pub(crate) fn engage<T: Real>(
     let fastest = vectors::largest(info.of_bodies(v)).1.to_f64();
     vectors::fill(changes.v, T::ZERO);
     let resting = held(equations, inputs) & all_stops(info);
+    let bounds = Bounds::of(equations);
+    let directions = [0.0; MOST_CONTACTS];
+    let hit = Hit { info, closed: resting, bound: locked, directions, bounds: &bounds, rates: &gaps.rate };
     let Changes { rows, v: of_v, .. } = changes;
     let answered = Contacts::at(equations, (t, q), |contacts| {
         let way = |row: usize| STEPS * h.to_f64() * number(&gaps.rate, row).abs();
@@ -127,8 +131,9 @@ pub(crate) fn engage<T: Real>(
         are_met(info, t.to_f64(), locked, |row| number(&gaps.gap, row), allowed)?;
         // written so that a NaN is no growth
         let has_growth = contacts.growth() < growth_limit();
-        let solved = contacts.complementary(resting | locked, locked, &gaps.rate).filter(|_| has_growth);
-        let (_, impulses) = solved.ok_or_else(|| unanswered(info, t.to_f64(), locked))?;
+        let solved = hit.answer(&contacts, &gaps.rate).filter(|_| has_growth);
+        let struck = solved.ok_or_else(|| unanswered(info, t.to_f64(), locked))?;
+        let impulses = struck.impulses;
         let left = contacts.rates(&impulses);
         let after = |row: usize| number(&gaps.rate, row) + number(&left, row);
         // and what moves no position by more than rounding
@@ -141,6 +146,7 @@ pub(crate) fn engage<T: Real>(
         };
         do_not_contradict(info, t.to_f64(), locked, after, left)?;
         contacts.add(&impulses, of_v);
+        rubbing::note(info, inputs, &struck);
         Ok(())
     });
     answered.unwrap_or(Ok(()))?;

@@ -28,9 +28,10 @@ use crate::locks::{all_stops, locked, placed};
 use crate::mechanism::growth_limit;
 use crate::modes::{self, close, due, engage, pass};
 use crate::pressing::held;
-use crate::sticking::{Held, Undecided, all_frictions, decide, hold};
+use crate::rubbing::{self, Bounds, Hit, Struck};
+use crate::sticking::{Held, Undecided, all_frictions, decide, direction, hold};
 pub use crate::touching::begin;
-use crate::{Error, Real, vectors};
+use crate::{Error, Info, Real, vectors};
 
 /// So many impacts follow each other within a step. What closes then is rested on.
 const IN_SEQUENCE: usize = 16;
@@ -58,6 +59,8 @@ pub fn push<T: Real>(
     let still = held & all_frictions(info);
     let (at, undecided) = (At { t, q, v }, Undecided { resting: held & all_stops(info), still, breaking: 0 });
     let Held { held, forces } = decide(equations, at, inputs, undecided, [of_q, rows])?;
+    // what rubs on stops that are left does not stick in the step
+    let still = held & still;
     let half = T::from_f64(0.5) * h;
     Contacts::at(equations, (t, q), |contacts| contacts.add(&forces.map(|force| half * force), v));
     let holds = held & (still | locked(info, inputs));
@@ -128,13 +131,22 @@ fn strike_stops<T: Real>(
     };
     let ends = Ends { gap: [gap_before, now.gap], rate: [rate(before.v), rate(v)] };
     let restitutions = restitutions(equations);
+    let (info, bounds) = (equations.info(), Bounds::of(equations));
+    let slid = core::array::from_fn(|row| direction(info, inputs, row));
+    let stuck = rubbing::all_rubbing(info) & held(equations, inputs);
     let size = vectors::largest(equations.info().of_bodies(q)).1.to_f64();
     let answered = Contacts::at(equations, (t, q), |contacts| {
         let allowed = core::array::from_fn(|row| modes::allowed::<T>(size, contacts.slope(row)));
-        let from = (&contacts, count, locked);
-        let striking = Striking::new(from, h, (&ends, &allowed), &restitutions, pushed);
+        let from = (&contacts, info, locked);
+        let striking = Striking::new(from, h, (&ends, &allowed), (&restitutions, &bounds, &slid), pushed);
         let answer = striking.answer(closed)?;
-        let shifts = contacts.solve(answer.held | placed(equations.info(), locked), &answer.gap);
+        // what has stuck in the whole step is where it was
+        let back = those(MOST_CONTACTS, |row| has(stuck, row) && number(&answer.directions, row) == 0.0);
+        let off = core::array::from_fn(|row| {
+            let was = if has(back, row) { of(&gap_before, row) } else { T::ZERO };
+            of(&answer.gap, row) - was
+        });
+        let shifts = contacts.solve(answer.held | back | placed(info, locked), &off);
         vectors::fill(changes.q, T::ZERO);
         vectors::fill(changes.v, T::ZERO);
         contacts.add(&zip(&answer.moved, &shifts, |moved, shift| moved + shift), changes.q);
@@ -147,6 +159,9 @@ fn strike_stops<T: Real>(
     // a force that presses for a step is no impact
     let noted = if answer.is_impact { answer.impulses } else { [T::ZERO; MOST_CONTACTS] };
     note(equations, answer.held, &noted, inputs);
+    let Answer { impulses, directions, .. } = answer;
+    let struck = Struck { impulses, held: answer.held, directions, rubbed: rubbing::borne(info, closed | answer.held) };
+    rubbing::note(info, inputs, &struck);
     Ok(true)
 }
 
@@ -159,11 +174,18 @@ struct Ends<T> {
 /// Stops at the end of a step.
 struct Striking<'a, T> {
     contacts: &'a Contacts<'a, T>,
+    info: &'a Info,
     /// The number of stops: behind them there may be frictions.
     count: usize,
     /// The constraints of modes, which hold with any impulse.
     locked: u32,
     restitutions: &'a Each<T>,
+    /// The bounds of the frictions of stops.
+    bounds: &'a Bounds<T>,
+    /// The directions in which these slid at the start of the step.
+    slid: &'a Each<f64>,
+    /// The stops that were rested on there.
+    pushed: u32,
     ends: &'a Ends<T>,
     /// The depths by which gaps may be behind their stops where modes lead them.
     allowed: &'a Each<f64>,
@@ -185,16 +207,18 @@ struct Answer<T> {
     moved: Each<T>,
     /// The gaps with it.
     gap: Each<T>,
+    /// The directions in which what touches stops slides.
+    directions: Each<f64>,
     /// True if one has closed faster than forces press.
     is_impact: bool,
 }
 
 impl<'a, T: Real> Striking<'a, T> {
     fn new(
-        (contacts, count, locked): (&'a Contacts<'a, T>, usize, u32),
+        (contacts, info, locked): (&'a Contacts<'a, T>, &'a Info, u32),
         h: T,
         (ends, allowed): (&'a Ends<T>, &'a Each<f64>),
-        restitutions: &'a Each<T>,
+        (restitutions, bounds, slid): (&'a Each<T>, &'a Bounds<T>, &'a Each<f64>),
         pushed: u32,
     ) -> Self {
         let one = T::from_f64(1.0);
@@ -204,11 +228,32 @@ impl<'a, T: Real> Striking<'a, T> {
             let part = if is_open && now < before { before / (before - now) } else { T::ZERO };
             if part < one { one - part } else { T::ZERO }
         });
-        let shift =
+        let mut shift: Each<T> =
             core::array::from_fn(|row| if has(pushed | locked, row) { T::ZERO } else { of(&rest, row) * h });
+        for (row, stop) in rubbing::rubbing(info) {
+            let of_stop = of(&shift, stop);
+            if let Some(to) = shift.get_mut(row) {
+                *to = of_stop;
+            }
+        }
         let [before, now] = &ends.rate;
         let change = zip(now, before, |now, before| now - before);
-        Self { contacts, count, locked, restitutions, ends, allowed, change, rest, shift }
+        let count = info.stops.len();
+        Self {
+            contacts,
+            info,
+            count,
+            locked,
+            restitutions,
+            bounds,
+            slid,
+            pushed,
+            ends,
+            allowed,
+            change,
+            rest,
+            shift,
+        }
     }
 
     /// The impulses at the stops that are closed, or that impulses close, one impact after the other; nothing where there
@@ -221,6 +266,7 @@ impl<'a, T: Real> Striking<'a, T> {
             return None;
         }
         let (mut impulses, mut held, mut is_impact) = ([T::ZERO; MOST_CONTACTS], 0, false);
+        let (mut directions, rubbing) = ([0.0; MOST_CONTACTS], rubbing::all_rubbing(self.info));
         for turn in 0..=IN_SEQUENCE {
             let moved = zip(&impulses, shift, |impulse, shift| impulse * shift);
             let gap = zip(&ends.gap[1], &contacts.rates(&moved), |gap, change| gap + change);
@@ -233,7 +279,7 @@ impl<'a, T: Real> Striking<'a, T> {
             if turn == IN_SEQUENCE || !(0..MOST_CONTACTS).any(is_hit) {
                 let held =
                     those(MOST_CONTACTS, |stop| has(closing & held, stop) && number(&impulses, stop) > 0.0);
-                return Some(Answer { held, impulses, moved, gap, is_impact });
+                return Some(Answer { held, impulses, moved, gap, directions, is_impact });
             }
             let taken = taken(contacts, (closed, self.locked), &self.change)
                 .or_else(|| (self.locked != 0).then_some([T::ZERO; MOST_CONTACTS]))?;
@@ -248,30 +294,62 @@ impl<'a, T: Real> Striking<'a, T> {
                     .any(|stop| is_hit(stop) && -number(&approach, stop) > number(&taken, stop));
             let short: Each<T> = core::array::from_fn(|stop| {
                 let later = if turn == 0 { of(&self.rest, stop) * of(&self.change, stop) } else { T::ZERO };
-                let is_still = has(held | self.locked, stop);
+                let is_still = has(held | self.locked | rubbing, stop);
                 let target = if is_still { T::ZERO } else { of(&thrown, stop) + later };
                 of(&rate, stop) - if target.to_f64() > 0.0 { target } else { T::ZERO }
             });
-            let answers = |b: &_| contacts.complementary(closing | self.locked, self.locked, b);
+            let bounds = if turn == 0 { self.turned(closing, &rate, &short) } else { *self.bounds };
+            let hit = self.hit(closing, &bounds, &rate);
             // what others keep closed throws nothing back
             let unthrown = || {
                 let kept = contacts.kept_closed(closing, self.locked);
                 core::array::from_fn(|stop| of(if has(kept, stop) { &rate } else { &short }, stop))
             };
-            let (_, more) = answers(&short)
-                .or_else(|| answers(&unthrown()))
+            let more = hit
+                .answer(contacts, &short)
+                .or_else(|| hit.answer(contacts, &unthrown()))
                 .or_else(|| self.led_by_modes(closing, &rate))?;
-            impulses = zip(&impulses, &more, |impulse, more| impulse + more);
+            for (row, direction) in directions.iter_mut().enumerate().filter(|(row, _)| has(more.rubbed, *row)) {
+                *direction = number(&more.directions, row);
+            }
+            impulses = zip(&impulses, &more.impulses, |impulse, more| impulse + more);
         }
         None
     }
 
+    /// The bounds of frictions, of those that turn around within the step, too: with the part of it before.
+    fn turned(&self, closing: u32, rate: &Each<T>, short: &Each<T>) -> Bounds<T> {
+        let mut bounds = *self.bounds;
+        let slid = |row: usize| number(self.slid, row);
+        let moves = |(row, stop): &(usize, usize)| has(self.pushed & closing, *stop) && slid(*row) != 0.0;
+        if rubbing::rubbing(self.info).any(|it| moves(&it)) {
+            let on = Hit { directions: *self.slid, ..self.hit(closing, &bounds, rate) };
+            let Some(struck) = on.with(self.contacts, short) else { return bounds };
+            let changes = self.contacts.rates(&struck.impulses);
+            let after = zip(rate, &changes, |rate, change| rate + change);
+            for (row, _) in rubbing::rubbing(self.info).filter(moves) {
+                let (from, to) = (of(&self.ends.rate[0], row), of(&after, row));
+                if slid(row) * from.to_f64() > 0.0 && slid(row) * to.to_f64() < 0.0 {
+                    bounds.turned(row, (slid(row), from / (from - to)));
+                }
+            }
+        }
+        bounds
+    }
+
+    /// The stops that close, with what rubs on them.
+    fn hit<'b>(&'b self, closed: u32, bounds: &'b Bounds<T>, rates: &'b Each<T>) -> Hit<'b, T> {
+        let directions = [0.0; MOST_CONTACTS];
+        Hit { info: self.info, closed, bound: self.locked, directions, bounds, rates }
+    }
+
     /// The impulses of modes alone, where their constraints and drives lead to what is closed: a stop gives none while it is
     /// behind its gap by no more than a mode may be off.
-    fn led_by_modes(&self, closing: u32, rate: &Each<T>) -> Option<(u32, Each<T>)> {
+    fn led_by_modes(&self, closing: u32, rate: &Each<T>) -> Option<Struck<T>> {
         let is_deep = |stop: usize| number(&self.ends.gap[1], stop) < -number(self.allowed, stop);
         let is_led = self.locked != 0 && !(0..self.count).any(|stop| has(closing, stop) && is_deep(stop));
-        is_led.then(|| (self.locked, self.contacts.solve(self.locked, rate)))
+        let impulses = is_led.then(|| self.contacts.solve(self.locked, rate))?;
+        Some(Struck { impulses, held: self.locked, rubbed: 0, directions: [0.0; MOST_CONTACTS] })
     }
 
     /// The rates with which gaps close, ġ_s.

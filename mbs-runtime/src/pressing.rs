@@ -1,6 +1,6 @@
 //! The forces at stops that are rested on, and of frictions that stick.
 
-use crate::Real;
+use crate::{Real, rubbing};
 use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_CONTACTS, bit, share, those};
 use crate::equations::{At, Equations};
 use crate::locks::locked;
@@ -13,7 +13,8 @@ pub(crate) fn held<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> u32 {
     let resting = those(info.stops.len(), |stop| memory(stop).is_some_and(|held| held > 0.5));
     let is_sticking = |memory: usize| inputs.get(memory).is_some_and(|it| it.to_f64().abs() < 0.5);
     let sticking = frictions(info).filter(|(_, memory)| is_sticking(*memory));
-    sticking.fold(resting | locked(info, inputs), |held, (row, _)| held | bit(row))
+    let off = rubbing::all_rubbing(info) & !rubbing::borne(info, resting);
+    sticking.fold(resting | locked(info, inputs), |held, (row, _)| held | bit(row) & !off)
 }
 
 /// Adds to accelerations what the stops do that are rested on, and to multipliers, if they are given; the pivot growth
@@ -43,6 +44,7 @@ pub(crate) fn pressed<T: Real>(
     }
     let gaps = Gaps::of(equations, at, acceleration);
     let found = Contacts::at(equations, (at.t, at.q), |contacts| {
+        let contacts = contacts.sliding(rubbing::sliding(equations, inputs));
         let forces = contacts.solve(held, &gaps.acceleration);
         contacts.add(&forces, acceleration);
         if let Some(multipliers) = multipliers {

@@ -16,7 +16,8 @@ use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, shar
 use crate::equations::{At, Equations};
 use crate::locks::{all_stops, locked, note_multipliers};
 use crate::pressing::{held, pressed};
-use crate::{Error, Info, Real, vectors};
+use crate::rubbing::{Bounds, Hit, Struck};
+use crate::{Error, Info, Real, rubbing, vectors};
 
 /// Friction breaks loose within this share of its largest force, where a run has found that it does.
 const BREAKS: f64 = 1e-6;
@@ -50,6 +51,11 @@ pub(crate) struct Held<T> {
 pub(crate) fn frictions(info: &Info) -> impl Iterator<Item = (usize, usize)> {
     let stops = info.stops.len();
     info.frictions.iter().enumerate().map(move |(at, friction)| (stops + at, friction.memory))
+}
+
+/// The set of all frictions but those of stops.
+pub(crate) fn free_frictions(info: &Info) -> u32 {
+    all_frictions(info) & !rubbing::all_rubbing(info)
 }
 
 /// The set of all frictions.
@@ -87,19 +93,36 @@ pub(crate) struct Limits<T> {
 }
 
 impl<T: Real> Limits<T> {
-    /// In a state with given accelerations and multipliers.
-    pub fn of(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &[T], reactions: [&[T]; 2]) -> Self {
+    /// In a state with given accelerations and multipliers, and forces at stops.
+    pub fn of(
+        equations: &dyn Equations<T>,
+        at: At<'_, T>,
+        inputs: &[T],
+        (reactions, forces): ([&[T]; 2], &Each<T>),
+    ) -> Self {
         let (stops, count) = (equations.info().stops.len(), equations.info().frictions.len());
         let mut values = [T::default(); 2 * MOST_CONTACTS];
         if let Some(values) = values.get_mut(..2 * count) {
             equations.limits(at, inputs, reactions, values);
         }
-        Self { stops, values }
+        Self { stops, values }.at_stops(equations.info(), forces)
     }
 
     fn of_row(&self, row: usize, which: usize) -> T {
         let place = row.checked_sub(self.stops).map(|at| 2 * at + which);
         place.and_then(|place| self.values.get(place)).copied().unwrap_or_default()
+    }
+
+    /// Frictions at stops, with the forces of these.
+    fn at_stops(mut self, info: &Info, forces: &Each<T>) -> Self {
+        for (row, stop) in rubbing::rubbing(info) {
+            let force = forces.get(stop).copied().unwrap_or_default();
+            let first = 2 * (row - self.stops);
+            for size in self.values.iter_mut().skip(first).take(2) {
+                *size = *size * force;
+            }
+        }
+        self
     }
 
     /// While it slides.
@@ -141,6 +164,8 @@ struct Holding<T> {
     /// W of each row with itself.
     own: Each<T>,
     limits: Limits<T>,
+    /// The directions of frictions, with those in which what does not move at stops begins to slide.
+    directions: Each<f64>,
 }
 
 impl<T: Real> Holding<T> {
@@ -149,27 +174,33 @@ impl<T: Real> Holding<T> {
         equations: &dyn Equations<T>,
         at: At<'_, T>,
         inputs: &[T],
-        [resting, sticking]: [u32; 2],
+        [resting, sticking, still, breaking]: [u32; 4],
         [a, lambda]: [&mut [T]; 2],
     ) -> Option<Self> {
-        let bound = sticking | locked(equations.info(), inputs);
+        let info = equations.info();
+        let bound = sticking | locked(info, inputs);
+        let bounds = Bounds::of(equations).loosened(info, breaking, 1.0 - BREAKS);
+        let directions =
+            core::array::from_fn(|row| if has(still, row) { 0.0 } else { direction(info, inputs, row) });
         equations.free_reactions(at, inputs, a, lambda);
         let free = Gaps::of(equations, at, a).acceleration;
         let solved = Contacts::at(equations, (at.t, at.q), |contacts| {
-            let (held, forces) = contacts.complementary(resting | bound, bound, &free)?;
+            let rest = Hit { info, closed: resting, bound, directions, bounds: &bounds, rates: &free };
+            let Struck { held, impulses: forces, directions, .. } = rest.with(&contacts, &free)?;
             contacts.add(&forces, a);
             contacts.react(&forces, lambda);
             let changes = contacts.rates(&forces);
             let own = core::array::from_fn(|row| contacts.mobility(row, row));
-            Some((held, forces, changes, own))
+            Some((held, forces, changes, own, directions))
         });
         let none = [T::ZERO; MOST_CONTACTS];
-        let (held, forces, changes, own) = solved.unwrap_or(Some((0, none, none, none)))?;
+        let (held, forces, changes, own, directions) =
+            solved.unwrap_or(Some((0, none, none, none, directions)))?;
         let sum = |row: usize| Some(*free.get(row)? + *changes.get(row)?);
         let accelerations = core::array::from_fn(|row| sum(row).unwrap_or_default());
-        let limits = Limits::of(equations, at, inputs, [a, lambda]);
+        let limits = Limits::of(equations, at, inputs, ([a, lambda], &forces));
         let none = NONE * vectors::largest(a).1.to_f64();
-        Some(Self { held, forces, accelerations, free, none, own, limits })
+        Some(Self { held, forces, accelerations, free, none, own, limits, directions })
     }
 
     /// True if no force of this friction stops its slip. So it is where a drive moves the body, and at dead centres.
@@ -197,12 +228,17 @@ pub(crate) fn decide<T: Real>(
     Undecided { resting, still, breaking }: Undecided,
     [a, lambda]: [&mut [T]; 2],
 ) -> Result<Held<T>, Error> {
-    let (info, mut sticking) = (equations.info(), still);
+    let info = equations.info();
+    // what is off its stop does not rub; what is on it is decided with the stop
+    let rubbing = still & rubbing::borne(info, resting);
+    let still = still & free_frictions(info);
+    let mut sticking = still;
     for _ in 0..=TRIES * info.frictions.len() {
         for (row, _) in frictions(info).filter(|(row, _)| has(sticking, *row)) {
             set(info, inputs, row, (0.0, T::ZERO));
         }
-        let found = Holding::of(equations, at, inputs, [resting, sticking], [&mut *a, &mut *lambda]);
+        let sets = [resting, sticking, rubbing, breaking];
+        let found = Holding::of(equations, at, inputs, sets, [&mut *a, &mut *lambda]);
         let found = found.ok_or_else(|| unanswered(info, at.t.to_f64(), resting | sticking))?;
         let share = |row: usize| if has(breaking, row) { 1.0 - BREAKS } else { 1.0 };
         let most = |row: usize| share(row) * found.limits.sticking(row).to_f64();
@@ -228,6 +264,11 @@ pub(crate) fn decide<T: Real>(
         for (row, _) in frictions(info).filter(|(row, _)| has(sticking, *row)) {
             let force = found.forces.get(row).copied().unwrap_or_default();
             set(info, inputs, row, (0.0, force));
+        }
+        for (row, _) in frictions(info).filter(|(row, _)| has(rubbing, *row)) {
+            let force = found.forces.get(row).copied().filter(|_| has(found.held, row));
+            let direction = number(&found.directions, row);
+            set(info, inputs, row, (direction, force.unwrap_or_default()));
         }
         note_multipliers(info, inputs, found.held, &found.forces);
         // what a mode pulls away leaves its stop

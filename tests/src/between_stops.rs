@@ -58,6 +58,72 @@ pub fn switching(number: u64, text: &str) -> String {
     text.trim_end().trim_end_matches('}').to_owned() + &modes + "}\n"
 }
 
+/// Blocks and rods that are thrown on a rough floor and against a rough wall, alone, hung on each other or on springs. Outputs
+/// are the gaps of their corners.
+pub fn thrown(number: u64) -> (String, usize) {
+    let mut random = Random::new(number ^ 0xabcd);
+    let mut whole = |from: i64, to: i64| from + random.below((to - from + 1) as usize) as i64;
+    let (bodies, is_hung, has_wall) = (whole(1, 2), whole(0, 1) == 1, whole(0, 1) == 1);
+    let mut text = String::from("Thrown {\n    gravity = (0, -9.81) [m/s^2];\n");
+    let is_hung = is_hung && bodies == 2;
+    text += &format!("    dof = {};\n", 3 * bodies - 2 * i64::from(is_hung));
+    let (mut stops, mut places) = (0, Vec::new());
+    for body in 0..bodies {
+        let (mass, inertia) = (whole(1, 5), whole(1, 8));
+        let (half_width, half_height) = (whole(1, 4), whole(0, 3));
+        text += &format!(
+            "    body b{body} (x{body}, y{body}, p{body}) {{ mass = {mass} [kg]; inertia = {inertia}/16*(1 [kg*m^2]); }}\n"
+        );
+        let corners = if half_height == 0 { vec![(-1, 0), (1, 0)] } else { vec![(-1, -1), (1, -1), (1, 1)] };
+        for (corner, (x, y)) in corners.into_iter().enumerate() {
+            let name = format!("c{corner}");
+            text += &format!(
+                "    point {name} on b{body} = ({}/8*(1 [m]), {}/8*(1 [m]));\n",
+                x * half_width,
+                y * half_height
+            );
+            places.push((format!("b{body}.{name}"), body));
+        }
+    }
+    if is_hung {
+        text += "    revolute pin (b0.c1, b1.c0);\n";
+    } else if whole(0, 2) == 0 {
+        text += "    point nail on ground = (0, 2 [m]);\n    spring s (b0.c1, ground.nail) { stiffness = 30 [N/m]; length = 1 [m]; }\n";
+    }
+    for (place, _) in &places {
+        let (e, mu) = (whole(0, 4), whole(0, 6));
+        text += &format!(
+            "    stop f{stops}: {place}.y >= 0 [m] {{ restitution = {e}/4; friction = {mu}/8; along = {place}.x; }}\n    \
+             output g{stops} [m] = {place}.y;\n"
+        );
+        stops += 1;
+    }
+    let sides = if has_wall && places.len() < 6 { places.len().min(2) } else { 0 };
+    for (place, _) in places.iter().take(sides) {
+        let (e, mu) = (whole(0, 4), whole(0, 6));
+        text += &format!(
+            "    stop f{stops}: {place}.x <= 2 [m] {{ restitution = {e}/4; friction = {mu}/8; along = {place}.y; }}\n    \
+             output g{stops} [m] = 2 [m] - {place}.x;\n"
+        );
+        stops += 1;
+    }
+    text += "    start { ";
+    for body in 0..bodies {
+        let (height, tilt, turn) = (whole(2, 4), whole(-8, 8), whole(-8, 8));
+        let (across, down) = (whole(-2, 4), whole(-3, 0));
+        if is_hung && body == 1 {
+            text += &format!("p1 = {tilt}/4; der(p1) = {turn}/2*(1 [rad/s]); guess x1 = 0.5 [m]; guess y1 = 1 [m]; ");
+        } else {
+            text += &format!(
+                "x{body} = {}/2*(1 [m]); y{body} = {height} [m]; p{body} = {tilt}/4; \
+                 der(x{body}) = {across}/2*(1 [m/s]); der(y{body}) = {down} [m/s]; der(p{body}) = {turn}/2*(1 [rad/s]); ",
+                -body
+            );
+        }
+    }
+    (text + "}\n}\n", stops)
+}
+
 /// A random mechanism: masses on springs, hung in joints of their own, between stops, some of which say the same or are
 /// reached at once. All start at 0, before every stop or at it.
 pub fn random(number: u64) -> (String, usize) {

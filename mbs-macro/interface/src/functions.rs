@@ -199,7 +199,7 @@ functions! {
     Corners = "corners"(Inputs) -> [result: Corners], [Adaptive, Whole];
     /// The values at whose knots forces, constraints or events bend or jump, beside those of time alone.
     Switches = "switches"(Time, Positions, Velocities, Inputs) -> [result: Switches], [Adaptive, Whole];
-    /// The restitution of every stop, and the share of its longest flight below which it is not left again.
+    /// Restitution and settling of every stop, behind them the coefficients of friction of those that rub.
     Stops = "stop_laws"() -> [result: Stops], [Stopping, Whole];
     /// The gap of every stop and the way that every friction has slid, its rate and its second derivative with given accelerations.
     Gaps = "gaps"(Time, Positions, Velocities, Reactions) -> [result: Gaps], [Counted, Stopping];

@@ -161,8 +161,9 @@ fn stop(stop: &compiled::Stop) -> DeclaredStop {
     }
 }
 
-fn friction(compiled::Friction { name, memory, limits, .. }: &compiled::Friction) -> DeclaredFriction {
-    DeclaredFriction { name: text(name), memory: *memory, limits: limits.each_ref().map(|limit| text(limit)) }
+fn friction(compiled::Friction { name, memory, limits, stop, .. }: &compiled::Friction) -> DeclaredFriction {
+    let limits = limits.each_ref().map(|limit| text(limit));
+    DeclaredFriction { name: text(name), memory: *memory, limits, stop: *stop }
 }
 
 fn event(event: &compiled::Event) -> DeclaredEvent {

@@ -7,6 +7,7 @@ use crate::equations::At;
 use crate::locks::{all_stops, locked, placed};
 use crate::modes::{self, are_met};
 use crate::pressing::{held, pressed};
+use crate::rubbing::{self, Bounds, Hit};
 use crate::sticking::{
     Held, Limits, Undecided, all_frictions, decide, direction, frictions, set, unanswered,
 };
@@ -75,7 +76,11 @@ impl<D: Dynamics> Jump<'_, D> {
         let count = equations.info().stops.len();
         let info = equations.info();
         let none = STILL * vectors::largest(a.as_ref()).1.to_f64();
+        let unborne = rubbing::all_rubbing(info) & !rubbing::borne(info, held);
         let pulls = those(info.watched_contacts(), |row| {
+            if has(unborne, row) {
+                return false;
+            }
             let against = direction(info, inputs, row) * number(&gaps.rate, row);
             let margin = number(&margins, row);
             // a stop from which a mode pulls
@@ -165,7 +170,7 @@ pub(super) fn margins<D: Dynamics>(
     }
     equations.free_reactions(at, inputs, a.as_mut(), lambda.as_mut());
     let (_, mut forces) = pressed(equations, at, inputs, a.as_mut(), Some(lambda.as_mut()));
-    let limits = Limits::of(equations, at, inputs, [a.as_ref(), lambda.as_ref()]);
+    let limits = Limits::of(equations, at, inputs, ([a.as_ref(), lambda.as_ref()], &forces));
     for (row, _) in frictions(equations.info()) {
         if let Some(force) = forces.get_mut(row) {
             *force = limits.sticking(row) - force.abs();
@@ -174,7 +179,7 @@ pub(super) fn margins<D: Dynamics>(
     forces
 }
 
-/// True of friction that slides and has no force: its direction does not matter.
+/// True of friction that slides and has no force, or whose stop is open: its direction does not matter.
 pub(super) fn is_idle<D: Dynamics>(
     dynamics: &D,
     at: At<'_, D::Real>,
@@ -182,8 +187,14 @@ pub(super) fn is_idle<D: Dynamics>(
     row: usize,
 ) -> bool {
     let (mut a, mut lambda) = (dynamics.declared_start().1, dynamics.no_feedback());
-    dynamics.equations().free_reactions(at, inputs, a.as_mut(), lambda.as_mut());
-    let limits = Limits::of(dynamics.equations(), at, inputs, [a.as_ref(), lambda.as_ref()]);
+    let equations = dynamics.equations();
+    if has(rubbing::all_rubbing(equations.info()), row) {
+        let rests = has(rubbing::borne(equations.info(), held(equations, inputs)), row);
+        return !rests || rubbing::sizes(equations).get(row).is_none_or(|size| size.to_f64() <= 0.0);
+    }
+    equations.free_reactions(at, inputs, a.as_mut(), lambda.as_mut());
+    let none = [D::Real::default(); MOST_CONTACTS];
+    let limits = Limits::of(equations, at, inputs, ([a.as_ref(), lambda.as_ref()], &none));
     limits.sticking(row).to_f64() <= 0.0
 }
 
@@ -206,10 +217,11 @@ impl<D: Dynamics> Jump<'_, D> {
         let locked = locked(self.dynamics.equations().info(), self.inputs);
         let still = self.still(&gaps.acceleration, size);
         let resting = those(self.count(), |stop| has(closed, stop) && is_still(&gaps.rate, &still, stop));
-        let solved = self.contacts(|contacts| {
-            let (_, forces) = contacts.complementary(resting | locked, locked, &gaps.acceleration)?;
-            Some(contacts.rates(&forces))
-        });
+        let (info, bounds) = (self.dynamics.equations().info(), Bounds::of(self.dynamics.equations()));
+        let directions = core::array::from_fn(|row| direction(info, self.inputs, row));
+        let rates = &gaps.acceleration;
+        let rest = Hit { info, closed: resting, bound: locked, directions, bounds: &bounds, rates };
+        let solved = self.contacts(|contacts| Some(contacts.rates(&rest.with(&contacts, rates)?.impulses)));
         let change = solved.flatten().ok_or_else(|| self.unanswered(closed))?;
         for (to, change) in gaps.acceleration.iter_mut().zip(change) {
             *to = *to + change;
@@ -278,7 +290,9 @@ impl<D: Dynamics> Jump<'_, D> {
         modes::do_not_contradict(info, self.t.to_f64(), locked, |row| number(&rates, row), left)?;
         let found = if is_impact { 0 } else { reached };
         let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);
-        let halted = those(MOST_CONTACTS, |row| has(friction & found & !held, row) && is_halted(row));
+        let halted = those(MOST_CONTACTS, |row| {
+            has(friction & !held, row) && (has(found, row) && is_halted(row) || has(stuck, row))
+        });
         let [not_moving, leaving] = self.slide(halted, &rates, &still);
         self.clear(resting | placed(info, locked), &gaps.gap, true);
         let breaking = found & held & !stuck | leaving;
@@ -331,6 +345,7 @@ impl<D: Dynamics> Jump<'_, D> {
         if let Some(laws) = laws.get_mut(..2 * count) {
             equations.stop_laws(laws);
         }
+        let (info, bounds) = (equations.info(), Bounds::of(equations));
         let law = |stop: usize, which: usize| laws.get(2 * stop + which).copied().unwrap_or_default();
         let (lowest, slopes) = (stopping.lowest.max(LOW * self.size()), self.slopes());
         loop {
@@ -341,12 +356,14 @@ impl<D: Dynamics> Jump<'_, D> {
             });
             let before = self.v.clone();
             let solved = self.contacts(|contacts| {
-                let (_, impulses) = contacts.complementary(closed | locked, locked, &b)?;
+                let directions = [0.0; MOST_CONTACTS];
+                let hit = Hit { info, closed, bound: locked, directions, bounds: &bounds, rates };
+                let struck = hit.answer(&contacts, &b)?;
                 let mut after = before.clone();
-                contacts.add(&impulses, after.as_mut());
-                Some((impulses, after))
+                contacts.add(&struck.impulses, after.as_mut());
+                Some((struck, after))
             });
-            let Some((impulses, after)) = solved.flatten() else {
+            let Some((struck, after)) = solved.flatten() else {
                 // what others keep closed throws nothing back
                 let kept = self.contacts(|contacts| contacts.kept_closed(closed, locked)).unwrap_or(0);
                 if kept & !settled == 0 {
@@ -356,6 +373,7 @@ impl<D: Dynamics> Jump<'_, D> {
                 continue;
             };
             self.v = after;
+            rubbing::note(info, self.inputs, &struck);
             let thrown = self.pressed(closed, stopping.size)?;
             let (mut more, mut shortest) = (0, f64::INFINITY);
             for stop in (0..count).filter(|stop| has(closed & !settled, *stop)) {
@@ -370,7 +388,7 @@ impl<D: Dynamics> Jump<'_, D> {
                 shortest = shortest.min(flight);
             }
             if more == 0 {
-                return Ok((impulses, shortest));
+                return Ok((struck.impulses, shortest));
             }
             settled |= more;
             self.v = before;

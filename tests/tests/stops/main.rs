@@ -8,6 +8,7 @@ mod energy;
 mod held;
 mod modes;
 mod rests;
+mod rubbing;
 mod several;
 mod steps;
 mod sticking;

@@ -106,6 +106,7 @@ fn friction_of(model: &Model, friction: &model::Friction) -> Friction {
         name: friction.quantity.name.clone(),
         memory: friction.memory,
         limits: [sliding, sticking],
+        stop: friction.stop,
         span: friction.span,
     }
 }

@@ -24,6 +24,8 @@ pub struct Friction {
     pub memory: usize,
     /// The size of the force while it slides, and the largest one with which it sticks, unless they are too long to read.
     pub limits: [String; 2],
+    /// The stop that it rubs on, of whose force the limits are shares then.
+    pub stop: Option<usize>,
     /// Where it is declared.
     pub span: Span,
 }
@@ -85,6 +87,11 @@ impl Compiled {
     /// The number of stops, of frictions that stick and of constraints of modes.
     pub fn contacts(&self) -> usize {
         self.stops.len() + self.frictions.len() + self.locks.len()
+    }
+
+    /// The frictions of stops.
+    pub fn rubbing(&self) -> impl Iterator<Item = &Friction> {
+        self.frictions.iter().filter(|friction| friction.stop.is_some())
     }
 
     /// True if velocities or memories may jump at the end of a step.

@@ -382,7 +382,7 @@ impl Compiled {
             Results::Clocks => 2 * self.sampling.clocks,
             Results::Samples => self.sampling.samples.len(),
             Results::Transitions => self.transitions.len(),
-            Results::Stops => 2 * self.stops.len(),
+            Results::Stops => 2 * self.stops.len() + self.rubbing().count(),
             Results::Gaps => 3 * self.contacts(),
             Results::Limits => 2 * self.frictions.len(),
             Results::Contacts => self.contact_count(),

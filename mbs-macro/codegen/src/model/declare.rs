@@ -63,7 +63,7 @@ impl<'a> Resolver<'a> {
                 self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
                 self.declare_input(name, unit, &item.doc);
             }
-            ItemKind::Stop { name, .. } => self.declare_stop(name),
+            ItemKind::Stop { name, properties, .. } => self.declare_stop(name, properties),
             ItemKind::Mode { name, rows, .. } => self.declare_mode(name, rows, &item.doc),
             ItemKind::When(_) => self.declare_transition(),
             ItemKind::Element(element) => self.declare_friction(element),

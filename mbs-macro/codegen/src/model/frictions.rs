@@ -25,8 +25,13 @@ impl Resolver<'_> {
         if !words_of(element).values().any(|word| *word == COULOMB) {
             return;
         }
+        self.declare_sticking(&element.name);
+    }
+
+    /// The memories of what rubs by a name.
+    pub(super) fn declare_sticking(&mut self, name: &Ident) {
         self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
-        let [direction, held] = memories_of(&element.name);
+        let [direction, held] = memories_of(name);
         let docs = ["the direction in which it slides, 0 while it sticks", "the force with which it sticks"];
         for (name, doc) in [&direction, &held].into_iter().zip(docs) {
             let meaning = Meaning::Input(self.inputs.len());
@@ -89,15 +94,25 @@ impl Resolver<'_> {
     }
 
     /// Enters friction that sticks.
-    pub(super) fn push_friction(&mut self, name: &Ident, Sticks { slip, limits }: Sticks) {
+    pub(super) fn push_friction(&mut self, name: &Ident, sticks: Sticks) {
+        self.push_sticking(name, None, sticks);
+    }
+
+    /// Enters the friction of a stop, whose limits are shares of what the stop pushes with.
+    pub(super) fn push_friction_at(&mut self, name: &Ident, stop: usize, sticks: Sticks) {
+        self.push_sticking(name, Some(stop), sticks);
+    }
+
+    fn push_sticking(&mut self, name: &Ident, stop: Option<usize>, Sticks { slip, limits }: Sticks) {
         let Some(memory) = self.friction_memory(name) else { return };
         if self.has_room_for(name, "friction", "take `law = smooth;` with a `transition` for some").is_none()
         {
             return;
         }
         let contact = self.contact(slip);
-        let quantity = quantity(name, "", "", Unit::ONE);
-        self.frictions.push(Friction { quantity, contact, limits, memory, span: name.span() });
+        let told = if stop.is_some() { &of(name, "friction") } else { name };
+        let quantity = quantity(told, "", "", Unit::ONE);
+        self.frictions.push(Friction { quantity, contact, limits, memory, stop, span: name.span() });
     }
 
     /// A value of positions with its derivatives.
@@ -135,7 +150,8 @@ impl Resolver<'_> {
         for (at, second) in self.frictions.iter().enumerate() {
             let is_alike = |first: &&Friction| {
                 let holds_more = [first, second].iter().any(|it| it.limits[0] != it.limits[1]);
-                holds_more && first.contact.slopes == second.contact.slopes
+                let is_of_stop = [first, second].iter().any(|it| it.stop.is_some());
+                holds_more && !is_of_stop && first.contact.slopes == second.contact.slopes
             };
             let Some(first) = self.frictions.iter().take(at).find(is_alike) else { continue };
             let [first_name, name] = [first, second].map(|it| &it.quantity.name);

@@ -325,10 +325,12 @@ pub struct Friction {
     pub quantity: Quantity,
     /// The way that it has slid.
     pub contact: Contact,
-    /// The size of the force while it slides, and the largest one with which it sticks.
+    /// The size of the force while it slides, and the largest one with which it sticks; shares of the force of its stop.
     pub limits: [Expr; 2],
     /// The place among the inputs of the memory of the direction of sliding; that of the force that holds is behind it.
     pub memory: usize,
+    /// The stop that it rubs on, if it is the friction of one.
+    pub stop: Option<usize>,
     pub span: Span,
 }
 
@@ -390,6 +392,13 @@ impl Model {
         let frictions = self.frictions.iter().map(|friction| &friction.contact);
         let locks = self.locks.iter().map(|lock| &lock.contact);
         self.stops.iter().map(|stop| &stop.contact).chain(frictions).chain(locks)
+    }
+
+    /// Restitution and settling of every stop, behind them the coefficients of those that rub.
+    pub fn stop_laws(&self) -> impl Iterator<Item = Expr> {
+        let sizes = self.frictions.iter().filter(|friction| friction.stop.is_some());
+        let laws = self.stops.iter().flat_map(|stop| [stop.restitution, stop.settle]);
+        laws.chain(sizes.map(|friction| friction.limits[0]))
     }
 
     /// The coordinate of this direction of a body, if it has one.

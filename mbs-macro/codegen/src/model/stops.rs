@@ -3,12 +3,15 @@
 //! A stop is a gap g(q, t) that is never negative. It has no row among the constraints: while it is open, nothing is
 //! computed of it. A run that finds it closed asks for the response of the mechanism to an impulse along ∂g/∂q.
 //! A memory is 1 while it is rested on, and another one sums up its impulses: every path has memories.
+//!
+//! With `friction = mu; along = s;` what rests on it, or hits it, rubs along s: a [friction](super::frictions) of its own,
+//! whose size is μ beside the force, or the impulse, of the stop.
 
 use std::collections::BTreeMap;
 
 use mbs_symbolic::units::{Dimension, Unit};
 use mbs_symbolic::{Expr, Node, Number, Pieces, Stage};
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 
 use super::declare::quantity;
 use super::known::Value;
@@ -16,6 +19,7 @@ use super::names::Place;
 use super::resolver::Resolver;
 use super::{Meaning, Requirement, Stop};
 use crate::diagnostics::{Diagnostic, listing, nearest};
+use crate::mechanics::elements::Sticks;
 use crate::quantity::{Comparison, Quantity, Setting};
 use crate::syntax::{Condition, Property};
 
@@ -24,12 +28,15 @@ const MOST_CONTACTS: usize = 16;
 
 const RESTITUTION: &str = "restitution";
 const SETTLE: &str = "settle";
+const FRICTION: &str = "friction";
+const ALONG: &str = "along";
+const PROPERTIES: [&str; 4] = [RESTITUTION, SETTLE, FRICTION, ALONG];
 /// The share of the longest flight below which a stop is not left again, where none is declared.
 const SETTLED: f64 = 1e-6;
 
 impl Resolver<'_> {
-    /// The memories of a stop: whether it is rested on, and the impulse that it has given so far.
-    pub(super) fn declare_stop(&mut self, name: &Ident) {
+    /// The memories of a stop: whether it is rested on, and the impulse that it has given so far; and those of its friction.
+    pub(super) fn declare_stop(&mut self, name: &Ident, properties: &[Property]) {
         self.scope.first_memory = self.scope.first_memory.min(self.inputs.len());
         let symbol = self.scope.symbol(&name.to_string(), Stage::Variable, Meaning::Input(self.inputs.len()));
         let value = Value::Symbol { symbol, dimension: Dimension::NONE, span: name.span() };
@@ -39,6 +46,9 @@ impl Resolver<'_> {
         let impulse = impulse_of(name);
         self.scope.symbol(&impulse.to_string(), Stage::Variable, meaning);
         self.stop_memory(quantity(&impulse, "the sum of the impulses of its impacts", "", Unit::ONE));
+        if properties.iter().any(|property| property.name == FRICTION) {
+            self.declare_sticking(name);
+        }
     }
 
     fn stop_memory(&mut self, quantity: Quantity) {
@@ -51,13 +61,17 @@ impl Resolver<'_> {
         let is_first = self.stops.iter().all(|stop| *name != stop.quantity.name);
         let Some(memory) = memory.filter(|_| is_first) else { return };
         self.know_impulse(name, memory + 1, dimension);
-        let values = self.stop_properties(name, properties);
-        let Some([restitution, settle]) = values else { return };
+        let values = self.stop_properties(name, dimension, properties);
+        let Some(Properties { restitution, settle, friction }) = values else { return };
         let contact = self.contact(gap);
         let unit = Unit { scale: Number::ONE, dimension };
         let quantity = quantity(name, "", &dimension.si_unit(), unit);
         let span = name.span();
+        let stop = self.stops.len();
         self.stops.push(Stop { quantity, contact, restitution, settle, memory, span });
+        if let Some((size, slip)) = friction {
+            self.push_friction_at(name, stop, Sticks { slip, limits: [size, size] });
+        }
     }
 
     /// The gap, which is 0 where the stop is touched, and its dimension.
@@ -139,34 +153,38 @@ impl Resolver<'_> {
         self.scope.declare(&impulse_of(name), value, &mut self.errors);
     }
 
-    /// The restitution, and the share of the longest flight below which a stop is not left again.
-    fn stop_properties(&mut self, name: &Ident, properties: &[Property]) -> Option<[Expr; 2]> {
+    /// The restitution, the share of the longest flight below which a stop is not left again, and its friction.
+    fn stop_properties(
+        &mut self,
+        name: &Ident,
+        gap: Dimension,
+        properties: &[Property],
+    ) -> Option<Properties> {
         let mut found: BTreeMap<String, Expr> = BTreeMap::new();
         for Property { name: property, value } in properties {
             let text = property.to_string();
-            if ![RESTITUTION, SETTLE].contains(&&*text) {
-                let message = format!("a stop has no `{text}`");
-                let help = match (&*text, nearest(&text, [RESTITUTION, SETTLE])) {
-                    ("stiffness" | "damping", _) => {
-                        "a soft end is a force: `force end on x = -k*ramp(x - gap);`".to_owned()
-                    }
-                    ("friction", _) => "impacts have no friction: leave it out".to_owned(),
-                    (_, Some(near)) => format!("did you mean `{near}`?"),
-                    _ => format!("its properties are {}", listing([RESTITUTION, SETTLE])),
-                };
-                self.errors.push(Diagnostic::new(property.span(), message).help(help));
+            if !PROPERTIES.contains(&&*text) {
+                self.errors.push(unknown_property(property));
                 return None;
             }
             let what = format!("the {text} of `{name}`");
-            let dimension = (&*what, Dimension::NONE);
-            let expr = self.scope.formula_of(value, Place::Property, dimension, &mut self.errors)?;
-            self.within_one(&format!("the {text} of {name}"), expr, value.span);
+            let (place, dimension) = match &*text {
+                ALONG => (Place::Constraint, gap),
+                _ => (Place::Property, Dimension::NONE),
+            };
+            let expr = self.scope.formula_of(value, place, (&*what, dimension), &mut self.errors)?;
+            match &*text {
+                FRICTION => self.not_negative(&format!("the {text} of {name}"), expr, value.span),
+                ALONG => self.slides(name, expr, value.span)?,
+                _ => self.within_one(&format!("the {text} of {name}"), expr, value.span),
+            }
             if found.insert(text, expr).is_some() {
                 let help = "keep one of them";
                 let message = format!("{what} is given twice");
                 self.errors.push(Diagnostic::new(property.span(), message).help(help));
             }
         }
+        let friction = self.friction_at(name, [FRICTION, ALONG].map(|property| found.get(property).copied()))?;
         let Some(&restitution) = found.get(RESTITUTION) else {
             let message = format!("`{name}` does not say how it throws back what hits it");
             let help = "give it a restitution from 0 (it stays) to 1 (it bounces without loss): \
@@ -175,22 +193,71 @@ impl Resolver<'_> {
             return None;
         };
         let settled = self.scope.arena.number(Number::from(SETTLED));
-        Some([restitution, found.get(SETTLE).copied().unwrap_or(settled)])
+        let settle = found.get(SETTLE).copied().unwrap_or(settled);
+        Some(Properties { restitution, settle, friction })
+    }
+
+    /// The coefficient of friction and along what it rubs: both, or none.
+    fn friction_at(&mut self, name: &Ident, given: [Option<Expr>; 2]) -> Option<Option<(Expr, Expr)>> {
+        let (message, help) = match given {
+            [Some(size), Some(along)] => return Some(Some((size, along))),
+            [None, None] => return Some(None),
+            [Some(_), None] => (
+                format!("`{name}` does not say along what it rubs"),
+                "give the way that what touches it slides, as in `along = foot.tip.x;`",
+            ),
+            [None, Some(_)] => (
+                format!("`{name}` does not say how much it rubs"),
+                "give a coefficient of friction, as in `friction = 0.3;`, or leave `along` out",
+            ),
+        };
+        self.errors.push(Diagnostic::new(name.span(), message).help(help));
+        None
+    }
+
+    /// Asks for a coordinate in the way along which a stop rubs, and for no corner.
+    fn slides(&mut self, name: &Ident, along: Expr, span: Span) -> Option<()> {
+        let (message, help) = if self.coordinates_in(along) == 0 {
+            (
+                format!("nothing slides along the stop `{name}`: no coordinate is left in it"),
+                "write the way that what touches it slides, as in `along = foot.tip.x;`",
+            )
+        } else if self.bends(along) {
+            (
+                format!("what slides along the stop `{name}` turns a corner: friction has no direction there"),
+                "take a smooth way, or a `cubic` table",
+            )
+        } else {
+            return Some(());
+        };
+        self.errors.push(Diagnostic::new(span, message).help(help));
+        None
     }
 
     /// Asks that a value is from 0 to 1.
-    pub(super) fn within_one(&mut self, what: &str, value: Expr, span: proc_macro2::Span) {
+    pub(super) fn within_one(&mut self, what: &str, value: Expr, span: Span) {
         let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
         for (bound, comparison) in [(zero, Comparison::GreaterOrEqual), (one, Comparison::LessOrEqual)] {
-            self.scope.requirements.push(Requirement {
-                name: what.to_owned(),
-                value,
-                difference: self.scope.arena.sub(value, bound),
-                comparison,
-                text: "it has to be from 0 to 1".to_owned(),
-                span,
-            });
+            self.beside(what, (value, comparison, bound), "it has to be from 0 to 1", span);
         }
+    }
+
+    /// Asks that a value is not negative.
+    fn not_negative(&mut self, what: &str, value: Expr, span: Span) {
+        let zero = self.scope.arena.zero();
+        self.beside(what, (value, Comparison::GreaterOrEqual, zero), "it must not be negative", span);
+    }
+
+    fn beside(
+        &mut self,
+        what: &str,
+        (value, comparison, bound): (Expr, Comparison, Expr),
+        text: &str,
+        span: Span,
+    ) {
+        let difference = self.scope.arena.sub(value, bound);
+        let (name, text) = (what.to_owned(), text.to_owned());
+        self.scope.requirements.push(Requirement { name, value, difference, comparison, text, span });
     }
 
     /// Refuses what does not go with stops.
@@ -213,6 +280,28 @@ impl Resolver<'_> {
             );
         }
     }
+}
+
+/// The values of a stop beside its gap.
+struct Properties {
+    restitution: Expr,
+    settle: Expr,
+    /// The coefficient of friction, and the way along which it rubs.
+    friction: Option<(Expr, Expr)>,
+}
+
+/// The error for a property that stops do not have.
+fn unknown_property(property: &Ident) -> Diagnostic {
+    let text = property.to_string();
+    let help = match (&*text, nearest(&text, PROPERTIES)) {
+        ("stiffness" | "damping", _) => {
+            "a soft end is a force: `force end on x = -k*ramp(x - gap);`".to_owned()
+        }
+        ("static", _) => "what sticks at a stop holds with its `friction`, too".to_owned(),
+        (_, Some(near)) => format!("did you mean `{near}`?"),
+        _ => format!("its properties are {}", listing(PROPERTIES)),
+    };
+    Diagnostic::new(property.span(), format!("a stop has no `{text}`")).help(help)
 }
 
 /// The name of the memory that sums up impulses.

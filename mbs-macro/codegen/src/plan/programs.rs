@@ -78,7 +78,7 @@ pub fn roots(
         (FunctionId::Clocks, model.clocks.iter().flat_map(|clock| [clock.period, clock.offset]).collect()),
         (FunctionId::Samples, samples),
         (FunctionId::Transitions, model.transitions.iter().map(|transition| transition.value).collect()),
-        (FunctionId::Stops, model.stops.iter().flat_map(|stop| [stop.restitution, stop.settle]).collect()),
+        (FunctionId::Stops, model.stop_laws().collect()),
         (
             FunctionId::Gaps,
             model.contacts().flat_map(|contact| [contact.gap, contact.rate, contact.acceleration]).collect(),

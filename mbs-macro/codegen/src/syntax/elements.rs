@@ -1,13 +1,12 @@
 //! Force elements, a word with places and a block of properties:
 //! `spring s (a.p, b.q) { stiffness = k; length = l; damping = c; }`.
 
-use syn::ext::IdentExt;
 use syn::parse::ParseStream;
-use syn::{Ident, Result, Token, braced};
+use syn::{Ident, Result, braced};
 
 use super::formula::is_vector;
 use super::joints::two_places;
-use super::words::{block, equals, expect_word, helped, name, semicolon};
+use super::words::{block, equals, expect_word, helped, name, property_name, semicolon};
 use super::{Element, ElementProperty, ItemKind, Load};
 use crate::mechanics::elements::{ElementKind, LAW, Places};
 
@@ -60,8 +59,7 @@ pub(super) fn law(input: ParseStream<'_>, name: Ident, kind: &'static ElementKin
 
 /// `stiffness = 3 [N/m];` or `wind = (5, 0) [m/s];`
 fn property(input: ParseStream<'_>) -> Result<ElementProperty> {
-    // `static` is a word of Rust, and no name of anything here
-    let name = if input.peek(Token![static]) { input.call(Ident::parse_any)? } else { name(input)? };
+    let name = property_name(input)?;
     equals(input)?;
     let value = if is_vector(input) { Load::Vector(input.parse()?) } else { Load::Scalar(input.parse()?) };
     semicolon(input)?;

@@ -127,6 +127,11 @@ pub(super) fn definition(input: ParseStream<'_>) -> Result<(Ident, Formula)> {
     Ok((name, value))
 }
 
+/// The name of a property: `static` is a word of Rust, and no name of anything else.
+pub(super) fn property_name(input: ParseStream<'_>) -> Result<Ident> {
+    if input.peek(Token![static]) { input.call(Ident::parse_any) } else { name(input) }
+}
+
 /// `{ mass = 1 [kg]; inertia = 2 [kg*m^2]; }`
 pub(super) fn properties(input: ParseStream<'_>, example: &str) -> Result<Vec<Property>> {
     block(input, example)?;
@@ -134,7 +139,10 @@ pub(super) fn properties(input: ParseStream<'_>, example: &str) -> Result<Vec<Pr
     braced!(content in input);
     let mut properties = Vec::new();
     while !content.is_empty() {
-        let (name, value) = definition(&content)?;
+        let name = property_name(&content)?;
+        equals(&content)?;
+        let value = content.parse()?;
+        semicolon(&content)?;
         properties.push(Property { name, value });
     }
     Ok(properties)

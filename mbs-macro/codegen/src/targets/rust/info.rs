@@ -58,9 +58,15 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         quote!(#runtime::DeclaredStop { name: #name, doc: #doc, unit: #unit, dimension: #of, memory: #memory, formula: #formula })
     });
     let frictions =
-        compiled.frictions.iter().map(|Friction { name, memory, limits: [sliding, sticking], .. }| {
+        compiled.frictions.iter().map(|Friction { name, memory, limits: [sliding, sticking], stop, .. }| {
             let memory = Literal::usize_unsuffixed(*memory);
-            quote!(#runtime::DeclaredFriction { name: #name, memory: #memory, limits: [#sliding, #sticking] })
+            let stop = match stop.map(Literal::usize_unsuffixed) {
+                Some(stop) => quote!(::core::option::Option::Some(#stop)),
+                None => quote!(::core::option::Option::None),
+            };
+            quote! {
+                #runtime::DeclaredFriction { name: #name, memory: #memory, limits: [#sliding, #sticking], stop: #stop }
+            }
         });
     let modes = modes(compiled, runtime);
     let start_pivots = pivots(&compiled.start_pivots, runtime);

@@ -83,8 +83,10 @@ pub struct Wasm {
 /// ```
 ///
 /// # Errors
-/// A program that reads what its function is not given, which is a mistake of the compiler.
+/// A stop with friction, which pages do not know; a program that reads what its function is not given, which is a mistake of the
+/// compiler.
 pub fn wasm(compiled: &Compiled) -> Result<Wasm, Diagnostics> {
+    super::refuse_rubbing(compiled, "a page")?;
     let internal = |fault| Diagnostic::internal(compiled.written.name.span(), fault);
     let module = module(compiled).map_err(internal)?;
     Ok(Wasm { module, tables: tables::tables(compiled) })
