@@ -95,8 +95,7 @@ impl<'a, T: Real> Contacts<'a, T> {
         let (mut what, mut result) = (Some(what), None);
         equations.contacts(t, q, &mut |values| {
             if let Some(what) = what.take() {
-                let contacts =
-                    Contacts { stops, frictions, locks, coordinates, constraints, values, slides };
+                let contacts = Contacts { stops, frictions, locks, coordinates, constraints, values, slides };
                 result = Some(what(contacts));
             }
         });
@@ -249,7 +248,9 @@ impl<'a, T: Real> Contacts<'a, T> {
     /// The first active stop whose impulse becomes 0 where that of one grows that depends on them.
     fn exchanged(&self, active: u32, (by, bound): (usize, u32), x: &Each<T>) -> Option<usize> {
         let column =
-            core::array::from_fn(|of| if of < self.stops { -self.slid_mobility(of, by) } else { T::default() });
+            core::array::from_fn(
+                |of| if of < self.stops { -self.slid_mobility(of, by) } else { T::default() },
+            );
         let shares = self.solve(active & !bit(by), &column);
         let ratio = |stop: usize| number(x, stop) / number(&shares, stop);
         let is_shrinking =

@@ -160,7 +160,12 @@ fn strike_stops<T: Real>(
     let noted = if answer.is_impact { answer.impulses } else { [T::ZERO; MOST_CONTACTS] };
     note(equations, answer.held, &noted, inputs);
     let Answer { impulses, directions, .. } = answer;
-    let struck = Struck { impulses, held: answer.held, directions, rubbed: rubbing::borne(info, closed | answer.held) };
+    let struck = Struck {
+        impulses,
+        held: answer.held,
+        directions,
+        rubbed: rubbing::borne(info, closed | answer.held),
+    };
     rubbing::note(info, inputs, &struck);
     Ok(true)
 }
@@ -309,7 +314,9 @@ impl<'a, T: Real> Striking<'a, T> {
                 .answer(contacts, &short)
                 .or_else(|| hit.answer(contacts, &unthrown()))
                 .or_else(|| self.led_by_modes(closing, &rate))?;
-            for (row, direction) in directions.iter_mut().enumerate().filter(|(row, _)| has(more.rubbed, *row)) {
+            for (row, direction) in
+                directions.iter_mut().enumerate().filter(|(row, _)| has(more.rubbed, *row))
+            {
                 *direction = number(&more.directions, row);
             }
             impulses = zip(&impulses, &more.impulses, |impulse, more| impulse + more);

@@ -84,9 +84,11 @@ impl Table {
     fn pivots(&mut self) -> bool {
         let (count, artificial) = (self.count, 2 * self.count);
         let constant = |table: &Self, row: usize| table.entry(row, count + 1);
-        let least = (0..count).reduce(|least, row| {
-            if constant(self, row) < constant(self, least) { row } else { least }
-        });
+        let least = (0..count).reduce(
+            |least, row| {
+                if constant(self, row) < constant(self, least) { row } else { least }
+            },
+        );
         let Some(first) = least.filter(|row| constant(self, *row) < 0.0) else { return true };
         for row in self.rows.iter_mut().take(count) {
             if let Some(entry) = row.get_mut(count) {

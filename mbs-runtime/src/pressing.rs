@@ -1,10 +1,10 @@
 //! The forces at stops that are rested on, and of frictions that stick.
 
-use crate::{Real, rubbing};
 use crate::contact::{Contacts, DEPENDENT, Each, Gaps, MOST_CONTACTS, bit, share, those};
 use crate::equations::{At, Equations};
 use crate::locks::locked;
 use crate::sticking::frictions;
+use crate::{Real, rubbing};
 
 /// The stops that are rested on, the frictions that stick, and the constraints of the modes that hold.
 pub(crate) fn held<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> u32 {

@@ -96,7 +96,8 @@ impl<T: Real> Bounds<T> {
     /// Where a run has found that what sticks breaks loose.
     pub fn loosened(mut self, info: &Info, set: u32, part: f64) -> Self {
         for (row, _) in rubbing(info).filter(|(row, _)| has(set, *row)) {
-            for size in [&mut self.forwards, &mut self.backwards].into_iter().filter_map(|it| it.get_mut(row)) {
+            for size in [&mut self.forwards, &mut self.backwards].into_iter().filter_map(|it| it.get_mut(row))
+            {
                 *size = *size * T::from_f64(part);
             }
         }
@@ -347,7 +348,8 @@ impl<'a, T: Real> Pairs<'a, T> {
 
     /// W, or b, scaled.
     fn scaled(&self, of: usize, by: Option<usize>) -> f64 {
-        let entry = self.w.get(of).and_then(|row| row.get(by.unwrap_or(MOST_CONTACTS))).copied().unwrap_or(0.0);
+        let entry =
+            self.w.get(of).and_then(|row| row.get(by.unwrap_or(MOST_CONTACTS))).copied().unwrap_or(0.0);
         entry * self.scale(of) * by.map_or(1.0, |by| self.scale(by))
     }
 }

@@ -41,6 +41,7 @@ pub mod pendulum;
 pub mod random;
 pub mod solved;
 pub mod swing;
+pub mod thrown;
 
 /// The README's example compiles and runs.
 #[cfg(doctest)]

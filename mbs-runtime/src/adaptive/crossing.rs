@@ -112,7 +112,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 true => turned & bit != 0,
                 false => self.is_turned(index, is_rising, rounding, watched),
             };
-            if is_zero || self.is_held_by_others(index, watched) {
+            if is_zero || self.is_held_by_others(index, watched) || self.is_idle_at_stops(index) {
                 kept.judged |= bit;
                 kept.rising |= rising & bit;
                 kept.turned |= if is_turned { bit } else { 0 };

@@ -12,6 +12,7 @@ use crate::contact::{MOST_CONTACTS, bit, has, number, those};
 use crate::equations::{At, Equations};
 use crate::locks::placed;
 use crate::pressing::held;
+use crate::rubbing::all_rubbing;
 use crate::sticking::{all_frictions, direction, frictions, set};
 use crate::{Error, Real, modes};
 
@@ -179,6 +180,15 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         });
         let Some(allowed) = allowed else { return false };
         ends.into_iter().all(|t| self.value_between(t, index, watched).to_f64().abs() <= allowed)
+    }
+
+    /// True of the friction of a stop that has been looked at too often where the last step began: it slides by rounding. Where
+    /// it slides by more, against its direction, the next step sees it.
+    pub(super) fn is_idle_at_stops(&self, index: usize) -> bool {
+        let equations = self.dynamics.equations();
+        let row = stop_in(equations, index);
+        let is_rubbing = row.is_some_and(|row| has(all_rubbing(equations.info()), row));
+        is_rubbing && self.stopping.looks == (self.before.t.to_f64(), MOST_LOOKS)
     }
 
     /// Lets the next jump rest on a stop; false if that has been tried too often at this time.

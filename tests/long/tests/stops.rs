@@ -1,11 +1,11 @@
 //! Stops over many impacts: a ball in a box, and random mechanisms between random stops.
 #![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
-use mbs_live::{Prepared, Run, Text};
+use mbs_live::{Live, Prepared, Run, Text};
 use mbs_runtime::equations::At;
 use mbs_runtime::{Adaptive, Dop853, Error, Sampled, System, Tolerances, mechanism};
 use paths::EXHAUSTIVE;
-use tests::between_stops;
+use tests::{between_stops, thrown};
 
 const TIGHT: Tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_step: f64::INFINITY, first_step: None };
 
@@ -191,10 +191,10 @@ fn held_by(run: &mut dyn System, (steps, allowed): (u64, f64), stops: usize, tex
 /// Blocks and rods on a rough floor and against a rough wall: in runs of both kinds energy does not grow, and none ends early.
 #[test]
 fn random_friction_at_stops_takes_energy() {
-    let count = if EXHAUSTIVE { 400 } else { 300 };
+    let count = if EXHAUSTIVE { 1000 } else { 100 };
     let mut failures = Vec::new();
     for number in 0..count {
-        let (text, stops) = between_stops::thrown(number);
+        let (text, stops) = thrown::random(number);
         let live = Text::declaration("thrown.mbs", &text)
             .compile()
             .unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -208,7 +208,7 @@ fn random_friction_at_stops_takes_energy() {
     assert!(failures.is_empty(), "{} of {count}:\n{}", failures.len(), failures.join("\n"));
 }
 
-fn to_a_tolerance(live: &mbs_live::Live, stops: usize) -> Result<(), String> {
+fn to_a_tolerance(live: &Live, stops: usize) -> Result<(), String> {
     let told = |error: &dyn std::fmt::Display| error.to_string();
     // bodies that fly are integrated exactly, however far they turn in a step
     let tolerances = Tolerances { max_step: 0.02, ..TIGHT };
@@ -237,7 +237,7 @@ fn to_a_tolerance(live: &mbs_live::Live, stops: usize) -> Result<(), String> {
     Ok(())
 }
 
-fn in_constant_steps(live: &mbs_live::Live, stops: usize) -> Result<(), String> {
+fn in_constant_steps(live: &Live, stops: usize) -> Result<(), String> {
     const STEP: f64 = 1e-4;
     let told = |error: &dyn std::fmt::Display| error.to_string();
     let mut run = Run::builder(live, STEP).build().map_err(|e| told(&e))?;

@@ -184,7 +184,8 @@ impl Resolver<'_> {
                 self.errors.push(Diagnostic::new(property.span(), message).help(help));
             }
         }
-        let friction = self.friction_at(name, [FRICTION, ALONG].map(|property| found.get(property).copied()))?;
+        let friction =
+            self.friction_at(name, [FRICTION, ALONG].map(|property| found.get(property).copied()))?;
         let Some(&restitution) = found.get(RESTITUTION) else {
             let message = format!("`{name}` does not say how it throws back what hits it");
             let help = "give it a restitution from 0 (it stays) to 1 (it bounces without loss): \
@@ -224,7 +225,9 @@ impl Resolver<'_> {
             )
         } else if self.bends(along) {
             (
-                format!("what slides along the stop `{name}` turns a corner: friction has no direction there"),
+                format!(
+                    "what slides along the stop `{name}` turns a corner: friction has no direction there"
+                ),
                 "take a smooth way, or a `cubic` table",
             )
         } else {
