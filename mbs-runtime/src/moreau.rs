@@ -21,22 +21,17 @@
 //! Eng. 177 (1999) 235; V. Acary, ibid. 256 (2013) 224, for the correction of positions.
 
 pub use crate::changes::{Changes, Vectors};
-use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, has, number, share, those};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, has, number, those};
 use crate::equations::{At, Equations};
 use crate::halting::halt;
 use crate::locks::{all_stops, locked, placed};
-use crate::mechanism::growth_limit;
 use crate::modes::{self, close, due, engage, pass};
 use crate::pressing::held;
-use crate::rubbing::{self, Bounds, Hit, Struck};
+use crate::rubbing::{self, Bounds, Struck};
 use crate::sticking::{Held, Undecided, all_frictions, decide, direction, hold};
+use crate::striking::{Answer, Ends, Striking, of, zip};
 pub use crate::touching::begin;
-use crate::{Error, Info, Real, vectors};
-
-/// So many impacts follow each other within a step. What closes then is rested on.
-const IN_SEQUENCE: usize = 16;
-/// A rate is 0 below this share of the terms of which it is made.
-const ROUNDING: f64 = 1e-12;
+use crate::{Error, Real, vectors};
 
 /// Adds half of the impulses of rest over a step of `h` seconds to the velocities at its start, and sets the memories of
 /// frictions that break loose. Gives the stops that push and the frictions that stick.
@@ -170,219 +165,6 @@ fn strike_stops<T: Real>(
     Ok(true)
 }
 
-/// Gaps and their rates at the start and at the end of a step.
-struct Ends<T> {
-    gap: [Each<T>; 2],
-    rate: [Each<T>; 2],
-}
-
-/// Stops at the end of a step.
-struct Striking<'a, T> {
-    contacts: &'a Contacts<'a, T>,
-    info: &'a Info,
-    /// The number of stops: behind them there may be frictions.
-    count: usize,
-    /// The constraints of modes, which hold with any impulse.
-    locked: u32,
-    restitutions: &'a Each<T>,
-    /// The bounds of the frictions of stops.
-    bounds: &'a Bounds<T>,
-    /// The directions in which these slid at the start of the step.
-    slid: &'a Each<f64>,
-    /// The stops that were rested on there.
-    pushed: u32,
-    ends: &'a Ends<T>,
-    /// The depths by which gaps may be behind their stops where modes lead them.
-    allowed: &'a Each<f64>,
-    /// ġ − ġ₀
-    change: Each<T>,
-    /// The rest of the step behind the closing of a gap: 1 − s.
-    rest: Each<T>,
-    /// The displacement by a unit impulse: (1 − s) h, and 0 where it is the second half of a push.
-    shift: Each<T>,
-}
-
-/// The answer of stops to a step.
-struct Answer<T> {
-    /// The stops that are rested on.
-    held: u32,
-    /// Λ
-    impulses: Each<T>,
-    /// (1 − s) h Λ
-    moved: Each<T>,
-    /// The gaps with it.
-    gap: Each<T>,
-    /// The directions in which what touches stops slides.
-    directions: Each<f64>,
-    /// True if one has closed faster than forces press.
-    is_impact: bool,
-}
-
-impl<'a, T: Real> Striking<'a, T> {
-    fn new(
-        (contacts, info, locked): (&'a Contacts<'a, T>, &'a Info, u32),
-        h: T,
-        (ends, allowed): (&'a Ends<T>, &'a Each<f64>),
-        (restitutions, bounds, slid): (&'a Each<T>, &'a Bounds<T>, &'a Each<f64>),
-        pushed: u32,
-    ) -> Self {
-        let one = T::from_f64(1.0);
-        let [before, now] = &ends.gap;
-        let rest = zip(before, now, |before, now| {
-            let is_open = before.to_f64() > 0.0;
-            let part = if is_open && now < before { before / (before - now) } else { T::ZERO };
-            if part < one { one - part } else { T::ZERO }
-        });
-        let mut shift: Each<T> =
-            core::array::from_fn(|row| if has(pushed | locked, row) { T::ZERO } else { of(&rest, row) * h });
-        for (row, stop) in rubbing::rubbing(info) {
-            let of_stop = of(&shift, stop);
-            if let Some(to) = shift.get_mut(row) {
-                *to = of_stop;
-            }
-        }
-        let [before, now] = &ends.rate;
-        let change = zip(now, before, |now, before| now - before);
-        let count = info.stops.len();
-        Self {
-            contacts,
-            info,
-            count,
-            locked,
-            restitutions,
-            bounds,
-            slid,
-            pushed,
-            ends,
-            allowed,
-            change,
-            rest,
-            shift,
-        }
-    }
-
-    /// The impulses at the stops that are closed, or that impulses close, one impact after the other; nothing where there
-    /// are none.
-    fn answer(&self, mut closed: u32) -> Option<Answer<T>> {
-        let Self { contacts, ends, shift, .. } = self;
-        // written so that a NaN is no growth
-        let has_growth = contacts.growth() < growth_limit();
-        if !has_growth {
-            return None;
-        }
-        let (mut impulses, mut held, mut is_impact) = ([T::ZERO; MOST_CONTACTS], 0, false);
-        let (mut directions, rubbing) = ([0.0; MOST_CONTACTS], rubbing::all_rubbing(self.info));
-        for turn in 0..=IN_SEQUENCE {
-            let moved = zip(&impulses, shift, |impulse, shift| impulse * shift);
-            let gap = zip(&ends.gap[1], &contacts.rates(&moved), |gap, change| gap + change);
-            let rate = zip(&ends.rate[1], &contacts.rates(&impulses), |rate, change| rate + change);
-            closed |= those(self.count, |stop| number(&gap, stop) <= 0.0);
-            let still = self.still(&impulses);
-            let closing =
-                those(MOST_CONTACTS, |stop| has(closed, stop) && number(&rate, stop) <= number(&still, stop));
-            let is_hit = |stop: usize| has(closing, stop) && number(&rate, stop) < -number(&still, stop);
-            if turn == IN_SEQUENCE || !(0..MOST_CONTACTS).any(is_hit) {
-                let held =
-                    those(MOST_CONTACTS, |stop| has(closing & held, stop) && number(&impulses, stop) > 0.0);
-                return Some(Answer { held, impulses, moved, gap, directions, is_impact });
-            }
-            let taken = taken(contacts, (closed, self.locked), &self.change)
-                .or_else(|| (self.locked != 0).then_some([T::ZERO; MOST_CONTACTS]))?;
-            let approach = if turn == 0 { self.approach() } else { rate };
-            let thrown = self.rebounds(&approach);
-            let is_last = turn + 1 == IN_SEQUENCE;
-            held = those(MOST_CONTACTS, |stop| {
-                has(closed, stop) && (is_last || number(&thrown, stop) <= number(&taken, stop))
-            });
-            is_impact = is_impact
-                || (0..MOST_CONTACTS)
-                    .any(|stop| is_hit(stop) && -number(&approach, stop) > number(&taken, stop));
-            let short: Each<T> = core::array::from_fn(|stop| {
-                let later = if turn == 0 { of(&self.rest, stop) * of(&self.change, stop) } else { T::ZERO };
-                let is_still = has(held | self.locked | rubbing, stop);
-                let target = if is_still { T::ZERO } else { of(&thrown, stop) + later };
-                of(&rate, stop) - if target.to_f64() > 0.0 { target } else { T::ZERO }
-            });
-            let bounds = if turn == 0 { self.turned(closing, &rate, &short) } else { *self.bounds };
-            let hit = self.hit(closing, &bounds, &rate);
-            // what others keep closed throws nothing back
-            let unthrown = || {
-                let kept = contacts.kept_closed(closing, self.locked);
-                core::array::from_fn(|stop| of(if has(kept, stop) { &rate } else { &short }, stop))
-            };
-            let more = hit
-                .answer(contacts, &short)
-                .or_else(|| hit.answer(contacts, &unthrown()))
-                .or_else(|| self.led_by_modes(closing, &rate))?;
-            for (row, direction) in
-                directions.iter_mut().enumerate().filter(|(row, _)| has(more.rubbed, *row))
-            {
-                *direction = number(&more.directions, row);
-            }
-            impulses = zip(&impulses, &more.impulses, |impulse, more| impulse + more);
-        }
-        None
-    }
-
-    /// The bounds of frictions, of those that turn around within the step, too: with the part of it before.
-    fn turned(&self, closing: u32, rate: &Each<T>, short: &Each<T>) -> Bounds<T> {
-        let mut bounds = *self.bounds;
-        let slid = |row: usize| number(self.slid, row);
-        let moves = |(row, stop): &(usize, usize)| has(self.pushed & closing, *stop) && slid(*row) != 0.0;
-        if rubbing::rubbing(self.info).any(|it| moves(&it)) {
-            let on = Hit { directions: *self.slid, ..self.hit(closing, &bounds, rate) };
-            let Some(struck) = on.with(self.contacts, short) else { return bounds };
-            let changes = self.contacts.rates(&struck.impulses);
-            let after = zip(rate, &changes, |rate, change| rate + change);
-            for (row, _) in rubbing::rubbing(self.info).filter(moves) {
-                let (from, to) = (of(&self.ends.rate[0], row), of(&after, row));
-                if slid(row) * from.to_f64() > 0.0 && slid(row) * to.to_f64() < 0.0 {
-                    bounds.turned(row, (slid(row), from / (from - to)));
-                }
-            }
-        }
-        bounds
-    }
-
-    /// The stops that close, with what rubs on them.
-    fn hit<'b>(&'b self, closed: u32, bounds: &'b Bounds<T>, rates: &'b Each<T>) -> Hit<'b, T> {
-        let directions = [0.0; MOST_CONTACTS];
-        Hit { info: self.info, closed, bound: self.locked, directions, bounds, rates }
-    }
-
-    /// The impulses of modes alone, where their constraints and drives lead to what is closed: a stop gives none while it is
-    /// behind its gap by no more than a mode may be off.
-    fn led_by_modes(&self, closing: u32, rate: &Each<T>) -> Option<Struck<T>> {
-        let is_deep = |stop: usize| number(&self.ends.gap[1], stop) < -number(self.allowed, stop);
-        let is_led = self.locked != 0 && !(0..self.count).any(|stop| has(closing, stop) && is_deep(stop));
-        let impulses = is_led.then(|| self.contacts.solve(self.locked, rate))?;
-        Some(Struck { impulses, held: self.locked, rubbed: 0, directions: [0.0; MOST_CONTACTS] })
-    }
-
-    /// The rates with which gaps close, ġ_s.
-    fn approach(&self) -> Each<T> {
-        let behind = zip(&self.rest, &self.change, |rest, change| rest * change);
-        zip(&self.ends.rate[1], &behind, |rate, behind| rate - behind)
-    }
-
-    /// The rates −e ġ with which gaps open again.
-    fn rebounds(&self, rates: &Each<T>) -> Each<T> {
-        rebounds(self.restitutions, rates)
-    }
-
-    /// The rates below which gaps do not move.
-    fn still(&self, impulses: &Each<T>) -> Each<f64> {
-        let [before, now] = &self.ends.rate;
-        core::array::from_fn(|of| {
-            let mut size = number(before, of).abs() + number(now, of).abs();
-            for by in 0..self.contacts.stops() {
-                size += (self.contacts.mobility(of, by).to_f64() * number(impulses, by)).abs();
-            }
-            share::<T>(ROUNDING) * size
-        })
-    }
-}
-
 /// The change of the rate of each gap in a step by the force at its own stop; `change` is that of all rates without stops.
 pub(crate) fn taken<T: Real>(
     contacts: &Contacts<'_, T>,
@@ -426,12 +208,4 @@ pub(crate) fn note<T: Real>(equations: &dyn Equations<T>, held: u32, impulses: &
 pub(crate) fn impact<T: Real>(equations: &dyn Equations<T>, t: T, closed: u32) -> Error {
     let stop = equations.info().stops.get(closed.trailing_zeros() as usize);
     Error::Impact { t: t.to_f64(), stop: stop.map_or("", |stop| stop.name) }
-}
-
-fn of<T: Real>(each: &Each<T>, stop: usize) -> T {
-    each.get(stop).copied().unwrap_or_default()
-}
-
-fn zip<T: Real>(x: &Each<T>, y: &Each<T>, what: impl Fn(T, T) -> T) -> Each<T> {
-    core::array::from_fn(|stop| what(of(x, stop), of(y, stop)))
 }

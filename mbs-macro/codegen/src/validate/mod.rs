@@ -74,8 +74,14 @@ fn unsettled(model: &Model, &Unsettled { contact, load }: &Unsettled) -> Diagnos
             let name = &friction.quantity.name;
             let message =
                 format!("`{name}` changes a reaction while it sticks, on which another force depends");
-            let help =
-                "take `law = smooth;` with a `transition`, or let the other force depend on what is known";
+            let help = match friction.stop {
+                Some(_) => {
+                    "leave the friction of the stop out, or let the other force depend on what is known"
+                }
+                None => {
+                    "take `law = smooth;` with a `transition`, or let the other force depend on what is known"
+                }
+            };
             Diagnostic::new(friction.span, message).help(help)
         }
         _ => Diagnostic::new(model.name.span(), "a contact changes a reaction on which a force depends"),

@@ -152,8 +152,13 @@ fn stops(info: &Info) -> String {
     let mut text = String::new();
     if !info.frictions.is_empty() {
         let mut table = Table::new(["", "sliding", "sticking, at most"]);
-        for DeclaredFriction { name, limits: [sliding, sticking], .. } in info.frictions {
-            table.row([*name, *sliding, *sticking]);
+        for DeclaredFriction { name, limits, stop, .. } in info.frictions {
+            let of = stop.and_then(|stop| info.stops.get(stop));
+            let limits = limits.map(|limit| match of {
+                Some(stop) => format!("({limit}) × force at {}", stop.name),
+                None => limit.to_owned(),
+            });
+            table.row([*name, &limits[0], &limits[1]]);
         }
         let title = "Friction that sticks: its size while it slides, and the largest one with which it holds";
         section(&mut text, title, &table);
