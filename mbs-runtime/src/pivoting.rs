@@ -6,8 +6,10 @@
 /// So many pairs at most: of sixteen contacts, of which eight are frictions with three pairs each.
 pub(crate) const MOST_PAIRS: usize = 32;
 
-/// A pivot is 0 below this size: rows have the size 1.
+/// A pivot is 0 below this size, as rows have the size 1,
 const LEAST: f64 = 1e-11;
+/// and below so many roundings of the largest entry of its row.
+const ROUNDINGS: f64 = 1e3;
 /// Pivots per pair, after which there is no end.
 const PIVOTS: usize = 16;
 /// Shares that lead no two rows to 0 at once, where they were.
@@ -111,7 +113,7 @@ impl Table {
 
     /// The row that becomes 0 first where a column grows, of several the artificial one, or the first variable.
     fn leaving(&self, column: usize) -> Option<usize> {
-        let falls = (0..self.count).filter(|row| self.entry(*row, column) < -LEAST);
+        let falls = (0..self.count).filter(|row| self.entry(*row, column) < -self.rounding(*row));
         let ratio = |row: usize| self.entry(row, self.count + 1).max(0.0) / -self.entry(row, column);
         let rank = |row: usize| {
             let variable = self.basic.get(row).copied().unwrap_or(0);
@@ -123,6 +125,12 @@ impl Table {
             let is_first = if is_alike { rank(row) < rank(least) } else { of_row < of_least };
             if is_first { row } else { least }
         })
+    }
+
+    /// Entries of a row up to this size are 0: behind a small pivot they are differences of large ones.
+    fn rounding(&self, row: usize) -> f64 {
+        let entries = self.rows.get(row).and_then(|row| row.get(..=self.count)).unwrap_or_default();
+        entries.iter().fold(LEAST, |most, entry| most.max(ROUNDINGS * f64::EPSILON * entry.abs()))
     }
 
     /// Exchanges the variables of a row and of a column; gives that of the row.

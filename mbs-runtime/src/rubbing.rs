@@ -176,12 +176,26 @@ impl<T: Real> Hit<'_, T> {
             let (held, impulses) = contacts.complementary(self.closed | self.bound, self.bound, b)?;
             return Some(Struck { impulses, held, rubbed, directions: self.directions });
         }
-        let (active, directions) = Pairs::new(self, contacts, b).states()?;
+        let (active, mut directions) = Pairs::new(self, contacts, b).states()?;
+        // what has no friction does not stick
+        let smooth = |row: &usize| self.is_open(*row) && self.bounds.middle(*row)[1] <= 0.0;
+        for row in (0..MOST_CONTACTS).filter(smooth) {
+            set_direction(&mut directions, row, 1.0);
+        }
         let sticks = |row: usize| has(borne(self.info, active), row) && number(&directions, row) == 0.0;
         let held = active | self.bound | those(MOST_CONTACTS, sticks);
         let slides = self.bounds.slides(self.info, |row| number(&directions, row));
         let impulses = contacts.sliding(slides).solve(held, b);
+        for row in (0..MOST_CONTACTS).filter(smooth) {
+            let (rate, _) = rate(contacts, b, &impulses, row);
+            set_direction(&mut directions, row, if rate > 0.0 { 1.0 } else { -1.0 });
+        }
         Some(Struck { impulses, held, rubbed, directions })
+    }
+
+    /// True of the friction of a closed stop that sticks, or slides in either direction.
+    fn is_open(&self, row: usize) -> bool {
+        has(borne(self.info, self.closed), row) && number(&self.directions, row) == 0.0
     }
 
     /// The energy that impulses give, Σ x (ġ + ½ W x), and the sum of the sizes of its terms.
@@ -238,8 +252,8 @@ struct Pairs<'a, T> {
 
 impl<'a, T: Real> Pairs<'a, T> {
     fn new(hit: &'a Hit<'a, T>, contacts: &Contacts<'_, T>, b: &Each<T>) -> Self {
-        let free = borne(hit.info, hit.closed);
-        let free = those(MOST_CONTACTS, |row| has(free, row) && number(&hit.directions, row) == 0.0);
+        let sticks = |row: usize| hit.is_open(row) && hit.bounds.middle(row)[1] > 0.0;
+        let free = those(MOST_CONTACTS, sticks);
         let (mut rows, mut count, mut counts) = ([0; MOST_CONTACTS], 0, [0; 2]);
         for (set, to) in [(hit.bound, None), (hit.closed, Some(0)), (free, Some(1))] {
             for row in (0..MOST_CONTACTS).filter(|row| has(set, *row)) {
@@ -320,19 +334,15 @@ impl<'a, T: Real> Pairs<'a, T> {
         for friction in 0..frictions {
             let [forwards, backwards, speed] = [0, 1, 2].map(|pair| place(friction, pair));
             // at its bound the force has the sign that a slide gives it, also where others hold what it does not
-            let [_, most] = self.hit.bounds.middle(self.row(stops + friction));
             let direction = match [forwards, backwards].map(|pair| table.is_active(pair)) {
-                // what has no friction does not stick
-                _ if !table.is_active(speed) && most > 0.0 => 0.0,
+                _ if !table.is_active(speed) => 0.0,
                 [true, true] => 0.0,
                 [true, false] => -1.0,
                 [false, true] => 1.0,
                 [false, false] if table.rest(forwards) > table.rest(backwards) => 1.0,
                 [false, false] => -1.0,
             };
-            if let Some(to) = directions.get_mut(self.row(stops + friction)) {
-                *to = direction;
-            }
+            set_direction(&mut directions, self.row(stops + friction), direction);
         }
         let pushing = (0..stops).filter(|at| table.is_active(*at));
         Some((pushing.fold(0, |set, at| set | bit(self.row(at))), directions))
@@ -374,6 +384,12 @@ fn without(w: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS], [bound, count]: [u
         row.copy_within(bound..count, 0);
     }
     w.copy_within(bound..count, 0);
+}
+
+fn set_direction(directions: &mut Each<f64>, row: usize, to: f64) {
+    if let Some(direction) = directions.get_mut(row) {
+        *direction = to;
+    }
 }
 
 /// W x + b of a row, and the sum of the sizes of its terms.
