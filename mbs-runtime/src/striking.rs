@@ -125,6 +125,7 @@ impl<'a, T: Real> Striking<'a, T> {
             if turn == IN_SEQUENCE || !(0..MOST_CONTACTS).any(is_hit) {
                 let held =
                     those(MOST_CONTACTS, |stop| has(closing & held, stop) && number(&impulses, stop) > 0.0);
+                let directions = self.moving(&directions, &rate, &impulses);
                 return Some(Answer { held, impulses, moved, gap, directions, is_impact });
             }
             let taken = taken(contacts, (closed, self.locked), &self.change)
@@ -163,6 +164,15 @@ impl<'a, T: Real> Striking<'a, T> {
             impulses = zip(&impulses, &more.impulses, |impulse, more| impulse + more);
         }
         None
+    }
+
+    /// The directions of what moves by more than the rounding of impulses, √W Σ √W Λ: what does not is open to stick.
+    fn moving(&self, directions: &Each<f64>, rate: &Each<T>, impulses: &Each<T>) -> Each<f64> {
+        let of_row = |row: usize| Real::sqrt(self.contacts.mobility(row, row).to_f64().max(0.0));
+        let sizes = (0..self.contacts.stops()).map(|row| of_row(row) * number(impulses, row).abs());
+        let size = sizes.sum::<f64>();
+        let moves = |row: usize| number(rate, row).abs() > share::<T>(ROUNDING) * of_row(row) * size;
+        core::array::from_fn(|row| if moves(row) { number(directions, row) } else { 0.0 })
     }
 
     /// The bounds of frictions, of those that turn around within the step, too: with the part of it before.
