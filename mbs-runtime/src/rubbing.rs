@@ -156,7 +156,8 @@ pub(crate) struct Hit<'a, T> {
 impl<T: Real> Hit<'_, T> {
     /// The impulses with which rates become W x + b ≥ 0, b = ġ − ġ⁺ of what is thrown back; nothing where there are none.
     pub fn answer(&self, contacts: &Contacts<'_, T>, b: &Each<T>) -> Option<Struck<T>> {
-        let thrown = self.with(contacts, b)?;
+        // what friction jams throws nothing back
+        let thrown = self.with(contacts, b).or_else(|| self.with(contacts, self.rates))?;
         let throws = |row: usize| has(self.closed, row) && number(b, row) != number(self.rates, row);
         if thrown.rubbed == 0 || !(0..MOST_CONTACTS).any(throws) {
             return Some(thrown);

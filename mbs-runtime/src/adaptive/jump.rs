@@ -121,8 +121,16 @@ impl<D: Dynamics> Jump<'_, D> {
             core::array::from_fn(|stop| contacts.mobility(stop, stop).to_f64().max(0.0))
         });
         let mut still = diagonal.unwrap_or(none).map(|mobility| STILL * Real::sqrt(2.0 * energy * mobility));
-        for ((still, acceleration), slope) in still.iter_mut().zip(accelerations).zip(self.slopes()) {
-            *still += Real::sqrt(2.0 * acceleration.to_f64().abs() * RISE * slope * size);
+        // by the largest acceleration: between bodies that fall together there is none
+        let slopes = self.slopes();
+        let of_coordinates = accelerations
+            .iter()
+            .zip(slopes)
+            .filter(|(_, slope)| *slope > 0.0)
+            .map(|(a, slope)| a.to_f64().abs() / slope);
+        let largest = of_coordinates.fold(0.0, f64::max);
+        for (still, slope) in still.iter_mut().zip(slopes) {
+            *still += slope * Real::sqrt(2.0 * largest * RISE * size);
         }
         for (row, _) in frictions(self.dynamics.equations().info()) {
             if let Some(still) = still.get_mut(row) {
@@ -218,7 +226,9 @@ impl<D: Dynamics> Jump<'_, D> {
         let still = self.still(&gaps.acceleration, size);
         let resting = those(self.count(), |stop| has(closed, stop) && is_still(&gaps.rate, &still, stop));
         let (info, bounds) = (self.dynamics.equations().info(), Bounds::of(self.dynamics.equations()));
-        let directions = core::array::from_fn(|row| direction(info, self.inputs, row));
+        let moves = |row: usize| !is_still(&gaps.rate, &still, row);
+        let directions =
+            core::array::from_fn(|row| if moves(row) { direction(info, self.inputs, row) } else { 0.0 });
         let rates = &gaps.acceleration;
         let rest = Hit { info, closed: resting, bound: locked, directions, bounds: &bounds, rates };
         let solved = self.contacts(|contacts| Some(contacts.rates(&rest.with(&contacts, rates)?.impulses)));

@@ -160,7 +160,7 @@ impl fmt::Display for Error {
             Self::Impact { t, stop } => write!(
                 f,
                 "at t = {t} s no impulses answer the impact at the stop `{stop}`: stops that contradict each other, a \
-                 drive that pushes against one, or steps longer than the way between two",
+                 drive that pushes against one, friction that jams what slides, or steps longer than the way between two",
                 t = Shown(t)
             ),
             Self::VelocityForce { coordinate } => write!(

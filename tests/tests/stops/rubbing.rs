@@ -249,3 +249,60 @@ fn both_paths_have_the_same_bits() -> Result<(), Error> {
     }
     Ok(())
 }
+
+/// Where a text comes to rest: its coordinates in runs of both kinds.
+fn at_rest<const N: usize>(text: &str, t: f64) -> Result<[[f64; N]; 2], Error> {
+    let live = Text::declaration("rest.mbs", text).compile().expect("a mechanism");
+    let mut constant = Run::builder(&live, 1e-4).build()?;
+    constant.advance(constant.steps_to(t)?)?;
+    let mut adaptive = Sampled::new(Adaptive::builder(Prepared::new(&live)).tolerances(TIGHT).build()?, t)?;
+    adaptive.advance(1)?;
+    Ok([&constant as &dyn System, &adaptive].map(|run| {
+        let (mut q, mut v) = ([f64::NAN; N], [f64::NAN; N]);
+        run.state(&mut q, &mut v);
+        assert!(v.iter().all(|v| v.abs() < 1e-12), "{v:?}");
+        q
+    }))
+}
+
+/// Bodies that rest on each other fall together without the floor: their gap has no acceleration that would tell what is
+/// rounding of its rate, and the upper one fell through the lower one.
+#[test]
+fn a_stack_at_rest_stays_one() -> Result<(), Error> {
+    let text = "Stack {
+        dof = 2;
+        gravity = (0, -9.81) [m/s^2];
+        body a (ya) { mass = 3 [kg]; }
+        body b (yb) { mass = 1 [kg]; }
+        stop floor: ya >= 0 [m] { restitution = 0; }
+        stop top: yb - ya >= 0.1 [m] { restitution = 0; }
+        start { ya = 0; yb = 0.1 [m]; }
+    }";
+    for [lower, upper] in at_rest::<2>(text, 3.0)? {
+        assert!(lower.abs() < 1e-12 && (upper - 0.1).abs() < 1e-12, "{lower} {upper}");
+    }
+    Ok(())
+}
+
+/// A disc with spin comes to rest in a corner of two rough stops: rows that depend on each other, and a slip of rounding that
+/// had no rest.
+#[test]
+fn a_spinning_disc_rests_in_a_corner() -> Result<(), Error> {
+    for mu in [0.9, 1.2, 3.0] {
+        let text = format!(
+            "Corner {{
+                dof = 3;
+                const r = 0.1 [m];
+                gravity = (0, -9.81 [m/s^2]);
+                body b (x, y, phi) {{ mass = 1 [kg]; inertia = 0.005 [kg*m^2]; }}
+                stop floor: y >= r {{ restitution = 0; friction = {mu}; along = x + r*phi; }}
+                stop wall: x >= r {{ restitution = 0; friction = {mu}; along = y - r*phi; }}
+                start {{ x = 0.3 [m]; y = r; der(x) = -2 [m/s]; der(phi) = 20 [rad/s]; }}
+            }}"
+        );
+        for [x, y, _] in at_rest::<3>(&text, 1.0)? {
+            assert!((x - 0.1).abs() < 1e-9 && (y - 0.1).abs() < 1e-9, "{mu}: {x} {y}");
+        }
+    }
+    Ok(())
+}
