@@ -191,7 +191,7 @@ fn held_by(run: &mut dyn System, (steps, allowed): (u64, f64), stops: usize, tex
 /// Blocks and rods on a rough floor and against a rough wall: in runs of both kinds energy does not grow, and none ends early.
 #[test]
 fn random_friction_at_stops_takes_energy() {
-    let count = if EXHAUSTIVE { 400 } else { 40 };
+    let count = if EXHAUSTIVE { 200 } else { 20 };
     let mut failures = Vec::new();
     for number in 0..count {
         let (text, stops) = thrown::random(number);
