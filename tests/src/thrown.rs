@@ -23,7 +23,8 @@ pub fn random(number: u64) -> (String, usize) {
     let wall = places.iter().take(sides).map(|place| (format!("2 [m] - {place}.x"), format!("{place}.y")));
     let mut stops = 0;
     for (gap, along) in floor.chain(wall) {
-        let (e, mu) = (whole(0, 4), whole(0, 6));
+        // what loses nothing rattles for ever, however little
+        let (e, mu) = (whole(0, 4).min(3), whole(0, 6));
         text += &format!(
             "    stop f{stops}: {gap} >= 0 [m] {{ restitution = {e}/4; friction = {mu}/8; along = {along}; }}\n    \
              output g{stops} [m] = {gap};\n"
