@@ -288,7 +288,7 @@ impl<'a, T: Real> Pairs<'a, T> {
         }
         let bound = count - counts[0] - counts[1];
         without(&mut w, [bound, count]);
-        rows.copy_within(bound..count, 0);
+        lead_back(&mut rows, bound);
         let scales = core::array::from_fn(|at| match w.get(at).and_then(|row| row.get(at)) {
             Some(own) if *own > 0.0 => 1.0 / Real::sqrt(*own),
             _ => 1.0,
@@ -365,6 +365,16 @@ impl<'a, T: Real> Pairs<'a, T> {
     }
 }
 
+/// Leads entries to the beginning, so many places; the last one of a row of W is b, and stays where it is.
+fn lead_back<T: Copy>(entries: &mut [T], places: usize) {
+    for to in 0..MOST_CONTACTS {
+        let from = entries.get(to + places).copied().filter(|_| to + places < MOST_CONTACTS);
+        if let (Some(entry), Some(from)) = (entries.get_mut(to), from) {
+            *entry = from;
+        }
+    }
+}
+
 /// Eliminates the first rows and columns, and leads the others to their places.
 fn without(w: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS], [bound, count]: [usize; 2]) {
     let entry = |w: &[[f64; MOST_CONTACTS + 1]; MOST_CONTACTS], row: usize, column: usize| {
@@ -382,9 +392,9 @@ fn without(w: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS], [bound, count]: [u
         }
     }
     for row in w.iter_mut() {
-        row.copy_within(bound..count, 0);
+        lead_back(row, bound);
     }
-    w.copy_within(bound..count, 0);
+    lead_back(w, bound);
 }
 
 fn set_direction(directions: &mut Each<f64>, row: usize, to: f64) {

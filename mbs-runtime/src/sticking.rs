@@ -117,7 +117,7 @@ impl<T: Real> Limits<T> {
     fn at_stops(mut self, info: &Info, forces: &Each<T>) -> Self {
         for (row, stop) in rubbing::rubbing(info) {
             let force = forces.get(stop).copied().unwrap_or_default();
-            let first = 2 * (row - self.stops);
+            let first = 2 * row.saturating_sub(self.stops);
             for size in self.values.iter_mut().skip(first).take(2) {
                 *size = *size * force;
             }
