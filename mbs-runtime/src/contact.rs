@@ -78,7 +78,7 @@ pub(crate) struct Contacts<'a, T> {
     coordinates: usize,
     constraints: usize,
     values: &'a [T],
-    /// How many times the x of a stop is that of what slides on it.
+    /// The x of the friction that slides on a stop, as a multiple of that of the stop.
     slides: Each<T>,
 }
 
@@ -268,13 +268,17 @@ impl<'a, T: Real> Contacts<'a, T> {
             if has(active, stop) && own < -share::<T>(ROUNDING) * largest {
                 return true;
             }
-            let b = number(b, stop);
-            let (mut rate, mut size) = (b, b.abs());
-            for (by, x) in x.iter().enumerate().take(self.stops) {
-                let term = self.mobility(stop, by).to_f64() * x.to_f64();
-                (rate, size) = (rate + term, size + term.abs());
-            }
+            let (rate, size) = self.rate(stop, b, x);
             rate < -share::<T>(ROUNDING) * size
+        })
+    }
+
+    /// W x + b of a row, and the sum of the sizes of its terms.
+    pub fn rate(&self, row: usize, b: &Each<T>, x: &Each<T>) -> (f64, f64) {
+        let b = number(b, row);
+        x.iter().enumerate().take(self.stops).fold((b, b.abs()), |(rate, size), (by, x)| {
+            let term = self.mobility(row, by).to_f64() * x.to_f64();
+            (rate + term, size + term.abs())
         })
     }
 

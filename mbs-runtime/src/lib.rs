@@ -115,6 +115,7 @@ mod adaptive;
 #[doc(hidden)]
 pub mod arrays;
 mod baumgarte;
+mod bounds;
 mod changes;
 mod components;
 mod constant;

@@ -1,6 +1,6 @@
 //! Friction at stops: Coulomb's law, of forces while a stop is rested on, and of impulses where it is hit.
 //!
-//! What touches a stop slides along s. With x of the stop and x_s of its friction, W and b as at [stops](crate::contact),
+//! A body that touches a stop slides along s. With x of the stop and x_s of its friction, W and b as at [stops](crate::contact),
 //! and the rate r = W x + b of s behind an impact, or its second derivative at rest,
 //!
 //! ```text
@@ -14,6 +14,7 @@
 //! Newton's law with friction may give energy (Kane and Levinson 1985). Where it would, its impulses are led to those
 //! without restitution as far as energy is kept: both are within the bounds of friction, and so is what lies between.
 
+pub(crate) use crate::bounds::{Bounds, all_rubbing, borne, rubbing, sizes};
 use crate::contact::{Contacts, DEPENDENT, Each, MOST_CONTACTS, bit, has, number, share, those};
 use crate::equations::Equations;
 use crate::pivoting::Table;
@@ -23,101 +24,10 @@ use crate::{Info, Real};
 /// A rate is 0 below this share of the terms of which it is made.
 const ROUNDING: f64 = 1e-12;
 
-/// The frictions of stops, by their rows, with the stops.
-pub(crate) fn rubbing(info: &Info) -> impl Iterator<Item = (usize, usize)> + use<> {
-    let rows = (info.stops.len()..).zip(info.frictions);
-    rows.filter_map(|(row, friction)| Some((row, friction.stop?)))
-}
-
-/// The set of the frictions of stops.
-pub(crate) fn all_rubbing(info: &Info) -> u32 {
-    rubbing(info).fold(0, |set, (row, _)| set | bit(row))
-}
-
-/// Those of them whose stops are in a set.
-pub(crate) fn borne(info: &Info, stops: u32) -> u32 {
-    rubbing(info).filter(|(_, stop)| has(stops, *stop)).fold(0, |set, (row, _)| set | bit(row))
-}
-
-/// μ of every friction of a stop, by its row.
-pub(crate) fn sizes<T: Real>(equations: &dyn Equations<T>) -> Each<T> {
-    let (info, mut sizes) = (equations.info(), [T::ZERO; MOST_CONTACTS]);
-    let count = rubbing(info).count();
-    if count == 0 {
-        return sizes;
-    }
-    let mut laws = [T::ZERO; 3 * MOST_CONTACTS];
-    let first = 2 * info.stops.len();
-    if let Some(laws) = laws.get_mut(..first + count) {
-        equations.stop_laws(laws);
-    }
-    for ((row, _), size) in rubbing(info).zip(laws.into_iter().skip(first)) {
-        if let Some(to) = sizes.get_mut(row) {
-            *to = size;
-        }
-    }
-    sizes
-}
-
-/// What slides on stops, as the memories of a run have it: −μ d by the stops.
+/// The x of frictions that slide, as the memories of a run have them: −μ d by their stops.
 pub(crate) fn sliding<T: Real>(equations: &dyn Equations<T>, inputs: &[T]) -> Each<T> {
     let info = equations.info();
     Bounds::of(equations).slides(info, |row| direction(info, inputs, row))
-}
-
-/// The most that friction has beside x of its stop, by its row: x_s is from −`forwards` x, with which it slides forwards, to
-/// `backwards` x. Both are μ but where it has turned around within a step.
-#[derive(Clone, Copy)]
-pub(crate) struct Bounds<T> {
-    forwards: Each<T>,
-    backwards: Each<T>,
-}
-
-impl<T: Real> Bounds<T> {
-    pub fn of(equations: &dyn Equations<T>) -> Self {
-        let sizes = sizes(equations);
-        Self { forwards: sizes, backwards: sizes }
-    }
-
-    /// Where it slid in a direction over a part of the step before it turned around, and has had half of its impulse then.
-    pub fn turned(&mut self, row: usize, (direction, part): (f64, T)) {
-        let other = if direction > 0.0 { &mut self.backwards } else { &mut self.forwards };
-        if let Some(size) = other.get_mut(row) {
-            *size = *size * (T::from_f64(3.0) - T::from_f64(4.0) * part);
-        }
-    }
-
-    /// The middle of the bounds and half of what is between them: x_s is from −(k + m) x to (m − k) x.
-    fn middle(&self, row: usize) -> [f64; 2] {
-        let [forwards, backwards] = [number(&self.forwards, row), number(&self.backwards, row)];
-        [0.5 * (forwards - backwards), 0.5 * (forwards + backwards)]
-    }
-
-    /// Where a run has found that what sticks breaks loose.
-    pub fn loosened(mut self, info: &Info, set: u32, part: f64) -> Self {
-        for (row, _) in rubbing(info).filter(|(row, _)| has(set, *row)) {
-            for size in [&mut self.forwards, &mut self.backwards].into_iter().filter_map(|it| it.get_mut(row))
-            {
-                *size = *size * T::from_f64(part);
-            }
-        }
-        self
-    }
-
-    /// What slides in given directions, by the stops.
-    pub fn slides(&self, info: &Info, direction: impl Fn(usize) -> f64) -> Each<T> {
-        let mut slides = [T::ZERO; MOST_CONTACTS];
-        for (row, stop) in rubbing(info) {
-            if let Some(to) = slides.get_mut(stop) {
-                *to = match direction(row) {
-                    forwards if forwards > 0.0 => -of(&self.forwards, row),
-                    backwards if backwards < 0.0 => of(&self.backwards, row),
-                    _ => T::ZERO,
-                };
-            }
-        }
-        slides
-    }
 }
 
 /// Notes how what touches stops slides behind an impact.
@@ -188,7 +98,7 @@ impl<T: Real> Hit<'_, T> {
         let slides = self.bounds.slides(self.info, |row| number(&directions, row));
         let impulses = contacts.sliding(slides).solve(held, b);
         for row in (0..MOST_CONTACTS).filter(smooth) {
-            let (rate, _) = rate(contacts, b, &impulses, row);
+            let (rate, _) = contacts.rate(row, b, &impulses);
             set_direction(&mut directions, row, if rate > 0.0 { 1.0 } else { -1.0 });
         }
         Some(Struck { impulses, held, rubbed, directions })
@@ -229,7 +139,7 @@ impl<T: Real> Hit<'_, T> {
         let part = T::from_f64(part);
         let impulses = core::array::from_fn(|row| of(&from.impulses, row) + part * of(&way, row));
         let directions = core::array::from_fn(|row| {
-            let (rate, _) = rate(contacts, self.rates, &impulses, row);
+            let (rate, _) = contacts.rate(row, self.rates, &impulses);
             let sticks = number(&from.directions, row) == 0.0 && number(&to.directions, row) == 0.0;
             let slides = !sticks && rate != 0.0;
             if slides { if rate > 0.0 { 1.0 } else { -1.0 } } else { 0.0 }
@@ -401,15 +311,6 @@ fn set_direction(directions: &mut Each<f64>, row: usize, to: f64) {
     if let Some(direction) = directions.get_mut(row) {
         *direction = to;
     }
-}
-
-/// W x + b of a row, and the sum of the sizes of its terms.
-fn rate<T: Real>(contacts: &Contacts<'_, T>, b: &Each<T>, x: &Each<T>, row: usize) -> (f64, f64) {
-    let b = number(b, row);
-    (0..contacts.stops()).fold((b, b.abs()), |(rate, size), by| {
-        let term = contacts.mobility(row, by).to_f64() * number(x, by);
-        (rate + term, size + term.abs())
-    })
 }
 
 fn of<T: Real>(each: &Each<T>, row: usize) -> T {

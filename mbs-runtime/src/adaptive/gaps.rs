@@ -3,7 +3,7 @@
 use super::control::Tolerances;
 use super::dynamics::Dynamics;
 use super::effort::Effort;
-use super::jump::{is_idle, margins};
+use super::margins::{is_idle, margins};
 use crate::contact::{Each, Gaps, MOST_CONTACTS, bit, has, those};
 use crate::equations::{At, Equations};
 use crate::info::{Direction, MOST_EVENTS};

@@ -26,6 +26,7 @@ mod ending;
 mod events;
 mod gaps;
 mod jump;
+mod margins;
 mod noise;
 mod passing;
 mod sampled;
