@@ -54,7 +54,8 @@ impl<T: Real> Bounds<T> {
         Self { forwards: sizes, backwards: sizes }
     }
 
-    /// Where it slid in a direction over a part of the step before it turned around, and has had half of its impulse then.
+    /// Sets the bounds of a friction that slid in a direction for a part of the step and turned around then. Half of the impulse of
+    /// that direction acted before the step.
     pub fn turned(&mut self, row: usize, (direction, part): (f64, T)) {
         let other = if direction > 0.0 { &mut self.backwards } else { &mut self.forwards };
         if let Some(size) = other.get_mut(row) {
@@ -68,7 +69,7 @@ impl<T: Real> Bounds<T> {
         [0.5 * (forwards - backwards), 0.5 * (forwards + backwards)]
     }
 
-    /// Where a run has found that what sticks breaks loose.
+    /// Narrows the bounds of a set of frictions by a factor: a run has found that they break loose.
     pub fn loosened(mut self, info: &Info, set: u32, part: f64) -> Self {
         for (row, _) in rubbing(info).filter(|(row, _)| has(set, *row)) {
             for size in [&mut self.forwards, &mut self.backwards].into_iter().filter_map(|it| it.get_mut(row))

@@ -12,7 +12,7 @@ const LEAST: f64 = 1e-11;
 const ROUNDINGS: f64 = 1e3;
 /// Pivots per pair, after which there is no end.
 const PIVOTS: usize = 16;
-/// Shares that lead no two rows to 0 at once, where they were.
+/// Constants move by about this share where pivots do not end, so that no two rows become 0 at once.
 const SHIFT: f64 = 1e-9;
 
 /// Rows of basic variables by those that are 0, behind them the artificial one and the constants.
@@ -51,7 +51,7 @@ impl Table {
         }
     }
 
-    /// True if it is solved; where rows that become 0 at once lead in a circle, or to no end, with constants a little off.
+    /// Finds a solution; true if there is one. Where pivots do not end it tries once more with constants that are moved a little.
     pub fn solve(&mut self) -> bool {
         let start = (self.rows, self.basic, self.zero);
         if self.pivots() {

@@ -175,7 +175,7 @@ impl<'a, T: Real> Striking<'a, T> {
         core::array::from_fn(|row| if moves(row) { number(directions, row) } else { 0.0 })
     }
 
-    /// The bounds of frictions, of those that turn around within the step, too: with the part of it before.
+    /// The bounds of frictions. Those that turn around within the step have bounds by the part of the step before the turn.
     fn turned(&self, closing: u32, rate: &Each<T>, short: &Each<T>) -> Bounds<T> {
         let mut bounds = *self.bounds;
         let slid = |row: usize| number(self.slid, row);

@@ -182,8 +182,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         ends.into_iter().all(|t| self.value_between(t, index, watched).to_f64().abs() <= allowed)
     }
 
-    /// True of the friction of a stop that has been looked at too often where the last step began: it slides by rounding. Where
-    /// it slides by more, against its direction, the next step sees it.
+    /// True of the friction of a stop that has been looked at too often where the last step began: its slip is rounding. A slip
+    /// against its direction that is more than rounding is found at the next step.
     pub(super) fn is_idle_at_stops(&self, index: usize) -> bool {
         let equations = self.dynamics.equations();
         let row = stop_in(equations, index);

@@ -216,7 +216,7 @@ impl Resolver<'_> {
         None
     }
 
-    /// Asks for a coordinate in the way along which a stop rubs, and for no corner.
+    /// Refuses a way of sliding without a coordinate, or with a corner.
     fn slides(&mut self, name: &Ident, along: Expr, span: Span) -> Option<()> {
         let (message, help) = if self.coordinates_in(along) == 0 {
             (
