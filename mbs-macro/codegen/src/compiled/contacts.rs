@@ -94,6 +94,12 @@ impl Compiled {
         self.frictions.iter().filter(|friction| friction.stop.is_some())
     }
 
+    /// Their rows among the contacts, each with that of its stop.
+    pub fn rubbing_rows(&self) -> impl Iterator<Item = [usize; 2]> {
+        let rows = (self.stops.len()..).zip(&self.frictions);
+        rows.filter_map(|(row, friction)| Some([row, friction.stop?]))
+    }
+
     /// True if velocities or memories may jump at the end of a step.
     pub fn jumps(&self) -> bool {
         self.contacts() > 0 || !self.transitions.is_empty()

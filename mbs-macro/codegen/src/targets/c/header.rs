@@ -20,6 +20,8 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
     };
     let clocks = if target.compiled.sampling.clocks > 0 { include_str!("text/clocks.h") } else { "" };
     let stops = if target.compiled.contacts() == 0 { "" } else { include_str!("text/stops.h") };
+    let rubs = target.compiled.rubbing().next().is_some();
+    let rubbing = if rubs { include_str!("text/rubbing.h") } else { "" };
     let parts = [
         comment(&format!("{}\n\n{HEAD}", target.compiled.doc), ""),
         target.fill(include_str!("text/header_head.h")),
@@ -30,7 +32,7 @@ pub fn header(target: &Target<'_>, kernels: &[Kernel]) -> String {
             &include_str!("text/header.h")
                 .replace("AT_FIRST", at_first)
                 .replace("DEFAULT_INPUTS", default_inputs)
-                .replace("CLOCKED", &format!("{clocks}{stops}"))
+                .replace("CLOCKED", &format!("{clocks}{stops}{rubbing}"))
                 .replace("HELD", &deadbeat(Explicit::held(scheme)))
                 .replace("STAGED", &deadbeat(Explicit::per_stage(scheme))),
         ),
@@ -84,10 +86,12 @@ fn counts(target: &Target<'_>) -> String {
         ("CONTACTS", compiled.length(Results::Contacts)),
     ];
     let of_transitions = [("TRANSITIONS", compiled.transitions.len())];
+    let of_rubbing = Some(("RUBBING", compiled.rubbing().count())).filter(|(_, count)| *count > 0);
     let of_clocks = of_clocks.into_iter().filter(|_| !samples.is_empty());
     let of_transitions = of_transitions.into_iter().filter(|_| !compiled.transitions.is_empty());
     let of_stops = of_stops.into_iter().filter(|_| compiled.contacts() > 0);
-    for (name, count) in others.into_iter().chain(of_clocks).chain(of_transitions).chain(of_stops) {
+    let of_contacts = of_stops.into_iter().chain(of_rubbing);
+    for (name, count) in others.into_iter().chain(of_clocks).chain(of_transitions).chain(of_contacts) {
         let _ = writeln!(text, "    {capitals}_{name} = {count},");
     }
     text + "};\n\n"

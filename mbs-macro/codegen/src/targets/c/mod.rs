@@ -92,8 +92,7 @@ impl CSources {
 /// ```
 ///
 /// # Errors
-/// A stop with friction, which C does not know; a program that would be written in another way than it was checked in, which is
-/// a mistake of the compiler.
+/// A program that would be written in another way than it was checked in, which is a mistake of the compiler.
 pub fn c(compiled: &Compiled, scalar: Scalar) -> Result<CSources, Diagnostics> {
     printed(compiled, scalar, false)
 }
@@ -108,7 +107,6 @@ pub fn c_with_tangents(compiled: &Compiled, scalar: Scalar) -> Result<CSources, 
 }
 
 fn printed(compiled: &Compiled, scalar: Scalar, has_tangents: bool) -> Result<CSources, Diagnostics> {
-    super::refuse_rubbing(compiled, "C")?;
     let names = Names::new(compiled);
     let target = Target { compiled, names: &names, scalar, faults: RefCell::default() };
     let internal = |fault: Inconsistency| Diagnostic::internal(compiled.written.name.span(), fault);

@@ -59,8 +59,29 @@ const ROUNDING: &str = include_str!("text/rounding.c");
 fn contacts(compiled: &Compiled) -> String {
     match compiled.contacts() {
         0 => String::new(),
-        _ => [ROUNDING, include_str!("text/contacts.c"), include_str!("text/sticking.c")].concat(),
+        _ => {
+            let rubs = compiled.rubbing().next().is_some();
+            let [bounds, rubbing]: [&[&str]; 2] = if rubs { [&[BOUNDS], &RUBBING] } else { [&[], &[]] };
+            let contacts = [bounds, &[include_str!("text/contacts.c")], rubbing, &STICKING].concat();
+            ROUNDING.to_owned() + &at_stops(compiled, &contacts.concat())
+        }
     }
+}
+
+const BOUNDS: &str = include_str!("text/bounds.c");
+const RUBBING: [&str; 2] = [include_str!("text/pivoting.c"), include_str!("text/rubbing.c")];
+const STICKING: [&str; 2] = [include_str!("text/sticking.c"), include_str!("text/halting.c")];
+/// Behind what finds out which conditions have begun to hold.
+const STOPS: [&str; 3] =
+    [include_str!("text/modes.c"), include_str!("text/striking.c"), include_str!("text/stops.c")];
+
+/// A text with its lines behind `RUBS` where a stop rubs, and with those behind `SMOOTH` where none does.
+fn at_stops(compiled: &Compiled, text: &str) -> String {
+    let words = ["SMOOTH", "RUBS"];
+    let [left, kept] = if compiled.rubbing().next().is_some() { words } else { [words[1], words[0]] };
+    let lines = text.split_inclusive('\n').filter(|line| !line.starts_with(left));
+    let plain = |line: &str| line.strip_prefix(kept).map(|it| it.strip_prefix(' ').unwrap_or(it).to_owned());
+    lines.map(|line| plain(line).unwrap_or_else(|| line.to_owned())).collect()
 }
 
 /// The functions of jumps at the end of a step: of velocities at stops and where modes are entered, of memories by transitions.
@@ -74,13 +95,13 @@ fn jumps(compiled: &Compiled) -> String {
         true => include_str!("text/no_transitions.c"),
         false => include_str!("text/transitions.c"),
     };
-    let steps: &[&str] = match compiled.contacts() {
-        0 => &[include_str!("text/stepped_transitions.c")],
-        _ if compiled.transitions.is_empty() => &[include_str!("text/modes.c"), include_str!("text/stops.c")],
-        _ => &[include_str!("text/due.c"), include_str!("text/modes.c"), include_str!("text/stops.c")],
+    let due = if compiled.transitions.is_empty() { "" } else { include_str!("text/due.c") };
+    let steps = match compiled.contacts() {
+        0 => include_str!("text/stepped_transitions.c").to_owned(),
+        _ => due.to_owned() + &at_stops(compiled, &STOPS.concat()),
     };
     let rounding = if compiled.contacts() == 0 { ROUNDING } else { "" };
-    [rounding, samples, transitions, &steps.concat()].concat()
+    [rounding, samples, transitions, &steps].concat()
 }
 
 /// The functions that start and step a run. Clocks and stops have their own around them.
@@ -207,6 +228,12 @@ fn tables(target: &Target<'_>) -> String {
         let declaration = "/* The memories of the multipliers of modes, and whether their constraints are of rates. */\n\
                            static const int NAME_locks[][2]";
         add(declaration, locks, "{0, 0}");
+    }
+    if compiled.rubbing().next().is_some() {
+        let places = compiled.rubbing_rows().map(|[row, stop]| format!("{{{row}, {stop}}}"));
+        let declaration =
+            "/* The rows of the frictions of stops, and these. */\nstatic const int NAME_rubbing[][2]";
+        add(declaration, places.collect(), "{0, 0}");
     }
     if !compiled.transitions.is_empty() {
         let sign = |is_positive| if is_positive { 1 } else { -1 };

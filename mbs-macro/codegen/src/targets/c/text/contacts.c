@@ -14,10 +14,20 @@ static double NAME_free_mobility(const real *contacts, int row)
     return free > 0 && free <= 1.7976931348623157e308 ? free : (double)NAME_mobility(contacts, row, row);
 }
 
+RUBS /* The change of the rate of one gap by a unit impulse at a stop, and by that of what slides on it. */
+RUBS static real NAME_slid_mobility(const real *contacts, const real *slides, int of, int by)
+RUBS {
+RUBS     const real own = NAME_mobility(contacts, of, by);
+RUBS     const int row = NAME_friction_on(by);
+RUBS     return row >= 0 && slides[by] != 0 ? own + slides[by] * NAME_mobility(contacts, of, row) : own;
+RUBS }
+RUBS
 /* x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set. Constraints of modes
    are the first, in the order of their pivots. A pivot is rounding beside what it was before the others; of modes, which hold
    where joints may hold, too, also beside what W would be without joints. */
-static void NAME_solve_at_stops(const real *contacts, const int *set, const real *b, real *x)
+SMOOTH static void NAME_solve_at_stops(const real *contacts, const int *set, const real *b, real *x)
+RUBS static void NAME_solve_sliding(
+RUBS     const real *contacts, const real *slides, const int *set, const real *b, real *x)
 {
     real rows[CAPS_ROWS][CAPS_ROWS + 1] = {{0}};
     double diagonal[CAPS_ROWS], free[CAPS_ROWS];
@@ -26,7 +36,8 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
         const int is_lock = place < CAPS_ROWS - CAPS_OWN_ROWS;
         const int row = is_lock ? CAPS_OWN_ROWS + place : place - (CAPS_ROWS - CAPS_OWN_ROWS);
         x[row] = 0;
-        if (set[row]) {
+SMOOTH         if (set[row]) {
+RUBS         if (set[row] && (NAME_stop_of(row) < 0 || NAME_is_borne(set, row))) {
             members[count] = row;
             count++;
             locks += is_lock;
@@ -34,7 +45,8 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
     }
     for (int row = 0; row < count; row++) {
         for (int column = 0; column < count; column++) {
-            rows[row][column] = NAME_mobility(contacts, members[row], members[column]);
+SMOOTH             rows[row][column] = NAME_mobility(contacts, members[row], members[column]);
+RUBS             rows[row][column] = NAME_slid_mobility(contacts, slides, members[row], members[column]);
         }
         rows[row][CAPS_ROWS] = -b[members[row]];
         diagonal[row] = (double)rows[row][row];
@@ -63,8 +75,18 @@ static void NAME_solve_at_stops(const real *contacts, const int *set, const real
     }
     for (int at = 0; at < count; at++) {
         x[members[at]] = is_pivot[at] ? rows[at][CAPS_ROWS] / rows[at][at] : 0;
+RUBS         if (slides[members[at]] != 0) {
+RUBS             x[NAME_friction_on(members[at])] = slides[members[at]] * x[members[at]];
+RUBS         }
     }
 }
+RUBS
+RUBS /* The same where nothing slides. */
+RUBS static void NAME_solve_at_stops(const real *contacts, const int *set, const real *b, real *x)
+RUBS {
+RUBS     const real none[CAPS_ROWS] = {0};
+RUBS     NAME_solve_sliding(contacts, none, set, b, x);
+RUBS }
 
 /* The first stop of a set that is pulled, or that is left free and closes; -1 where there is none. */
 static int NAME_least_wrong(const real *contacts, const int *set, const int *active, const real *b, const real *x)
@@ -174,6 +196,7 @@ static int NAME_find_held(const struct NAME_run *run, int *held)
         const real memory = NAME_elements(&run->inputs)[NAME_memories[row]];
         const int is_friction = row >= CAPS_STOPS && row < CAPS_OWN_ROWS;
         held[row] = is_friction ? fabs((double)memory) < 0.5 : memory > (real)0.5;
+RUBS         held[row] = held[row] && (NAME_stop_of(row) < 0 || NAME_is_borne(held, row));
         is_held = is_held || held[row];
     }
     return is_held;
@@ -184,13 +207,16 @@ static real NAME_press_with(
     const struct NAME_run *run, const int *held, struct NAME_reactions *reactions, real *forces)
 {
     const struct NAME_state *const at = &run->state;
-    real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, b[CAPS_ROWS];
+SMOOTH     real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, b[CAPS_ROWS];
+RUBS     real gaps[3 * CAPS_ROWS] = {0}, contacts[CAPS_CONTACTS] = {0}, b[CAPS_ROWS], slides[CAPS_ROWS];
     NAME_compute_gaps(run->mechanism, at->t, &at->q, &at->v, reactions, gaps);
     NAME_compute_contacts(run->mechanism, at->t, &at->q, contacts);
     for (int row = 0; row < CAPS_ROWS; row++) {
         b[row] = gaps[3 * row + 2];
     }
-    NAME_solve_at_stops(contacts, held, b, forces);
+SMOOTH     NAME_solve_at_stops(contacts, held, b, forces);
+RUBS     NAME_find_sliding(run, slides);
+RUBS     NAME_solve_sliding(contacts, slides, held, b, forces);
     NAME_add_responses(contacts, forces, 0, CAPS_COORDINATES, NAME_places(&reactions->acceleration));
     NAME_add_responses(
         contacts, forces, CAPS_COORDINATES, CAPS_CONSTRAINTS, NAME_places(&reactions->multipliers));

@@ -70,10 +70,22 @@ static int NAME_engage(struct NAME_run *run)
             return CAPS_APART;
         }
     }
+RUBS     const double none[CAPS_ROWS] = {0};
+RUBS     struct NAME_bounds bounds;
+RUBS     struct NAME_struck struck;
+RUBS     NAME_find_bounds(m, &bounds);
+RUBS     for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+RUBS         set[row] = 0;
+RUBS     }
+RUBS     const struct NAME_hit hit = {set, locked, none, &bounds, rates};
     if (!(contacts[CAPS_CONTACTS - 1] < NAME_growth_limit)
-        || !NAME_complementary(contacts, set, locked, rates, impulses)) {
+SMOOTH         || !NAME_complementary(contacts, set, locked, rates, impulses)) {
+RUBS         || !NAME_answer_hit(contacts, &hit, rates, &struck)) {
         return NAME_unanswered(run, locked);
     }
+RUBS     for (int row = 0; row < CAPS_ROWS; row++) {
+RUBS         impulses[row] = struck.impulses[row];
+RUBS     }
     NAME_change_rates(contacts, impulses, after);
     NAME_compute_phi_dot(m, at->t, &at->q, &at->v, &off);
     for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
@@ -89,6 +101,11 @@ static int NAME_engage(struct NAME_run *run)
     }
     NAME_add_responses(contacts, impulses, 0, CAPS_COORDINATES, NAME_places(&of_v));
     NAME_add(NAME_places(&at->v), 1, NAME_elements(&of_v), CAPS_COORDINATES);
+RUBS     for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
+RUBS         if (struck.rubbed[row]) {
+RUBS             NAME_set_friction(run, row, struck.directions[row], 0);
+RUBS         }
+RUBS     }
     return CAPS_OK;
 }
 

@@ -108,9 +108,20 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
     const struct NAME_state *const at = &run->state;
     const struct NAME_constraints no_feedback = {0};
     int sticking[CAPS_ROWS], bound[CAPS_ROWS], set[CAPS_ROWS], locked[CAPS_ROWS];
+RUBS     int rubbing[CAPS_ROWS], free[CAPS_ROWS];
+RUBS     double directions[CAPS_ROWS] = {0};
+RUBS     struct NAME_bounds bounds;
+RUBS     NAME_find_bounds(m, &bounds);
     NAME_find_locked(run, locked);
     for (int row = 0; row < CAPS_ROWS; row++) {
-        sticking[row] = still[row];
+SMOOTH         sticking[row] = still[row];
+RUBS         /* what is off its stop does not rub; what is on it is decided with the stop */
+RUBS         free[row] = still[row] && NAME_stop_of(row) < 0;
+RUBS         sticking[row] = free[row];
+RUBS         rubbing[row] = still[row] && NAME_is_borne(resting, row);
+RUBS         if (row >= CAPS_STOPS && row < CAPS_OWN_ROWS) {
+RUBS             directions[row] = rubbing[row] ? 0 : NAME_direction(run, row);
+RUBS         }
     }
     for (int tries = 0; tries <= 8 * (CAPS_OWN_ROWS - CAPS_STOPS); tries++) {
         struct NAME_reactions reactions = {0};
@@ -131,9 +142,15 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
             bound[row] = sticking[row] || locked[row];
             set[row] = resting[row] || bound[row];
         }
-        if (!NAME_complementary(contacts, set, bound, b, forces)) {
+SMOOTH         if (!NAME_complementary(contacts, set, bound, b, forces)) {
+RUBS         const struct NAME_hit rest = {resting, bound, directions, &bounds, b};
+RUBS         struct NAME_struck struck;
+RUBS         if (!NAME_meet(contacts, &rest, b, &struck)) {
             return NAME_unanswered(run, set);
         }
+RUBS         for (int row = 0; row < CAPS_ROWS; row++) {
+RUBS             forces[row] = struck.impulses[row];
+RUBS         }
         NAME_add_responses(contacts, forces, 0, CAPS_COORDINATES, NAME_places(&reactions.acceleration));
         NAME_add_responses(
             contacts, forces, CAPS_COORDINATES, CAPS_CONSTRAINTS, NAME_places(&reactions.multipliers));
@@ -161,7 +178,8 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
         for (int row = CAPS_OWN_ROWS - 1; row >= CAPS_STOPS; row--) {
             const double own = (double)NAME_mobility(contacts, row, row);
             const double least = 2.0 * 1e-6 * own * (double)limits[2 * (row - CAPS_STOPS) + 1];
-            if (still[row] && !sticking[row] && least > 0 && NAME_direction(run, row) * left[row] < -least) {
+SMOOTH             if (still[row] && !sticking[row] && least > 0 && NAME_direction(run, row) * left[row] < -least) {
+RUBS             if (free[row] && !sticking[row] && least > 0 && NAME_direction(run, row) * left[row] < -least) {
                 turned = row;
             }
         }
@@ -173,11 +191,15 @@ static int NAME_decide(struct NAME_run *run, const int *resting, const int *stil
             if (sticking[row]) {
                 NAME_set_friction(run, row, 0, forces[row]);
             }
+RUBS             if (rubbing[row]) {
+RUBS                 NAME_set_friction(run, row, struck.directions[row], struck.held[row] ? forces[row] : 0);
+RUBS             }
         }
         NAME_note_multipliers(run, locked, forces);
         return CAPS_OK;
     }
-    return NAME_unanswered(run, still);
+SMOOTH     return NAME_unanswered(run, still);
+RUBS     return NAME_unanswered(run, free);
 }
 
 /* Sets the memories of the forces with which frictions stick and modes hold. */
@@ -229,186 +251,5 @@ static void NAME_slide(struct NAME_run *run, int *still)
             NAME_set_friction(run, row, rate > 0 ? 1.0 : -1.0, 0);
         }
     }
-}
-
-/* The impulses of frictions at the end of a step, and those of stops that are rested on. */
-struct NAME_halting {
-    int halted[CAPS_ROWS];
-    /* the directions in which they slide from then on */
-    double directions[CAPS_ROWS];
-    /* the impulses before the step, of those that stuck in it */
-    real given[CAPS_ROWS];
-    /* the largest impulses that halt, in pairs as the limits of forces, and those of what is not halted by them, both with
-       what was given */
-    real most[2 * CAPS_ROWS], loose[CAPS_ROWS];
-    /* half of the rest of the step: by how much an impulse moves positions */
-    real shift[CAPS_ROWS];
-};
-
-/* Half a step of those that stuck, and the rest of the step of those that have come to a halt in it. */
-static void NAME_begin_halt(
-    const struct NAME_run *run, const int *stuck, const int *crossed, const real *was, const real *now,
-    const real *limits, struct NAME_halting *it)
-{
-    const real h = run->step, half = (real)0.5;
-    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
-        const int at = 2 * (row - CAPS_STOPS);
-        const real sliding = limits[at], sticking = limits[at + 1];
-        it->halted[row] = stuck[row] || crossed[row];
-        if (crossed[row]) {
-            const real from = was[3 * row + 1], to = now[3 * row + 1];
-            const real part = NAME_direction(run, row) * (double)from > 0 ? 1 - from / (from - to) : 1;
-            const real rest = part * h;
-            it->most[at + 1] = rest * (sliding + sticking);
-            it->loose[row] = rest * (sliding + sliding);
-            it->shift[row] = half * rest;
-        } else if (stuck[row]) {
-            it->given[row] = half * h * NAME_elements(&run->inputs)[NAME_memories[row] + 1];
-            it->most[at + 1] = h * sticking;
-            it->loose[row] = h * sliding;
-        }
-    }
-}
-
-/* The impulses; the worst of those that need more than they can have slides on. */
-static void NAME_find_halts(
-    const real *contacts, const int *resting, const real *now, struct NAME_halting *it, real *impulses)
-{
-    real fixed[CAPS_ROWS] = {0}, b[CAPS_ROWS], x[CAPS_ROWS], total[CAPS_ROWS];
-    int set[CAPS_ROWS], loose = 0;
-    while (loose >= 0) {
-        for (int row = 0; row < CAPS_ROWS; row++) {
-            real change = 0;
-            for (int by = 0; by < CAPS_ROWS; by++) {
-                change = change + NAME_mobility(contacts, row, by) * fixed[by];
-            }
-            b[row] = now[3 * row + 1] + change;
-            set[row] = it->halted[row] || resting[row];
-        }
-        NAME_solve_at_stops(contacts, set, b, x);
-        for (int row = 0; row < CAPS_ROWS; row++) {
-            total[row] = x[row] + it->given[row];
-        }
-        loose = NAME_loose(it->halted, total, it->most);
-        if (loose >= 0) {
-            fixed[loose] = (total[loose] > 0 ? it->loose[loose] : -it->loose[loose]) - it->given[loose];
-            it->directions[loose] = total[loose] > 0 ? -1.0 : 1.0;
-            it->halted[loose] = 0;
-        }
-    }
-    for (int row = 0; row < CAPS_ROWS; row++) {
-        impulses[row] = x[row] + fixed[row];
-    }
-}
-
-/* What leads back to where they were what stuck in the whole step, and to the constraints of modes; stops that are rested on
-   stay where they are. */
-static void NAME_find_way_back(
-    const real *contacts, const int *stuck, const int *resting, const int *locked, const real *was, const real *now,
-    const struct NAME_halting *it, const real *moved, real *back)
-{
-    real slipped[CAPS_ROWS];
-    int set[CAPS_ROWS], is_held = 0;
-    for (int row = 0; row < CAPS_ROWS; row++) {
-        const int held = it->halted[row] && stuck[row];
-        slipped[row] = locked[row] && !NAME_is_of_rates(row) ? now[3 * row] : held ? now[3 * row] - was[3 * row] : 0;
-        set[row] = held || (resting[row] && !NAME_is_of_rates(row));
-        back[row] = 0;
-        is_held = is_held || held || locked[row];
-    }
-    if (is_held) {
-        NAME_change_rates(contacts, moved, slipped);
-        NAME_solve_at_stops(contacts, set, slipped, back);
-    }
-}
-
-/* Answers friction at the end of a step, behind what stops did. */
-static int NAME_halt(struct NAME_run *run, const int *pushed, const struct NAME_state *before)
-{
-    const struct NAME *const m = run->mechanism;
-    struct NAME_state *const at = &run->state;
-    const struct NAME_constraints no_feedback = {0};
-    const struct NAME_reactions still = {0};
-    struct NAME_reactions reactions = {0};
-    struct NAME_halting it = {0};
-    struct NAME_coordinates of_q = {0}, of_v = {0};
-    real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, limits[2 * CAPS_ROWS] = {0};
-    real contacts[CAPS_CONTACTS] = {0}, forces[CAPS_ROWS], impulses[CAPS_ROWS], moved[CAPS_ROWS];
-    real back[CAPS_ROWS], ends[3 * CAPS_ROWS], rates[CAPS_ROWS];
-    int held[CAPS_ROWS], locked[CAPS_ROWS], stuck[CAPS_ROWS] = {0}, crossed[CAPS_ROWS] = {0}, acts[CAPS_ROWS] = {0};
-    int has_acted = NAME_find_locked(run, locked);
-    if (CAPS_OWN_ROWS == CAPS_STOPS && !has_acted) {
-        return CAPS_OK;
-    }
-    NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
-    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
-        stuck[row] = pushed[row];
-        crossed[row] = NAME_direction(run, row) * (double)now[3 * row + 1] < 0;
-        acts[row] = stuck[row] || crossed[row];
-        has_acted = has_acted || acts[row];
-    }
-    for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
-        acts[row] = locked[row];
-    }
-    if (has_acted) {
-        const int is_held = NAME_find_held(run, held);
-        NAME_compute_reactions(
-            m, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions.acceleration,
-            &reactions.multipliers);
-        if (is_held) {
-            NAME_press_with(run, held, &reactions, forces);
-        }
-        NAME_compute_limits(m, at->t, &at->q, &at->v, &run->inputs, &reactions, limits);
-        NAME_compute_gaps(m, before->t, &before->q, &before->v, &still, was);
-        NAME_compute_contacts(m, at->t, &at->q, contacts);
-        if (!(contacts[CAPS_CONTACTS - 1] < NAME_growth_limit)) {
-            return NAME_unanswered(run, acts);
-        }
-        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
-            held[row] = 0;
-        }
-        for (int row = 0; row < 3 * CAPS_ROWS; row++) {
-            ends[row] = now[row];
-        }
-        /* sliding may come to a halt by the impulses of those that stick */
-        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
-            crossed[row] = 0;
-        }
-        int is_late = 1;
-        while (is_late) {
-            const struct NAME_halting none = {0};
-            it = none;
-            is_late = 0;
-            NAME_begin_halt(run, stuck, crossed, was, ends, limits, &it);
-            NAME_find_halts(contacts, held, now, &it, impulses);
-            for (int row = 0; row < CAPS_ROWS; row++) {
-                rates[row] = now[3 * row + 1];
-            }
-            NAME_change_rates(contacts, impulses, rates);
-            for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
-                if (!stuck[row] && !crossed[row] && NAME_direction(run, row) * (double)rates[row] < 0) {
-                    ends[3 * row + 1] = rates[row];
-                    crossed[row] = 1;
-                    is_late = 1;
-                }
-            }
-        }
-        for (int row = 0; row < CAPS_ROWS; row++) {
-            moved[row] = impulses[row] * it.shift[row];
-        }
-        NAME_find_way_back(contacts, stuck, held, locked, was, now, &it, moved, back);
-        NAME_add_responses(contacts, moved, 0, CAPS_COORDINATES, NAME_places(&of_q));
-        NAME_add_responses(contacts, back, 0, CAPS_COORDINATES, NAME_places(&of_q));
-        NAME_add_responses(contacts, impulses, 0, CAPS_COORDINATES, NAME_places(&of_v));
-        NAME_add(NAME_places(&at->q), 1, NAME_elements(&of_q), CAPS_COORDINATES);
-        NAME_add(NAME_places(&at->v), 1, NAME_elements(&of_v), CAPS_COORDINATES);
-        for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
-            if (stuck[row] || crossed[row]) {
-                NAME_set_friction(run, row, it.directions[row], 0);
-            }
-        }
-    }
-    NAME_hold(run);
-    return CAPS_OK;
 }
 
