@@ -76,14 +76,13 @@ fn compiler() -> Result<Vec<u8>, Box<dyn Error>> {
 /// The page, whose policy of content allows its own script and style, and those of the pages of mechanisms.
 fn page(compiler: &[u8]) -> Result<String, Box<dyn Error>> {
     let script = format!("(async () => {{\n{}\n}})().catch({FAILED});", SCRIPTS.join("\n"));
-    let [free, inner] = [false, true].map(Sources::of_pages);
+    let pages = mbs_live::RUN_SCRIPTS.map(Sources::of_pages);
+    let scripts = pages.each_ref().map(|page| source_hash(&page.script)).join(" ");
     let policy = format!(
-        "default-src 'none'; script-src {} {} {} 'wasm-unsafe-eval'; style-src {} {}; worker-src blob:",
+        "default-src 'none'; script-src {} {scripts} 'wasm-unsafe-eval'; style-src {} {}; worker-src blob:",
         source_hash(&script),
-        source_hash(&free.script),
-        source_hash(&inner.script),
         source_hash(STYLE),
-        source_hash(&inner.style)
+        source_hash(&pages[0].style)
     );
     let parts = [
         ("POLICY", policy),

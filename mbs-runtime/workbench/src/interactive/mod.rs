@@ -156,10 +156,8 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Those of [interactive pages](Model#method.interactive_page), of mechanisms with or without stops and friction that
-    /// sticks.
-    pub fn of_pages(jumps: bool) -> Self {
-        let run = mbs_live::RUN_SCRIPTS[usize::from(jumps)];
+    /// Those of [interactive pages](Model#method.interactive_page) with one of the [scripts](mbs_live::RUN_SCRIPTS) of a run.
+    pub fn of_pages(run: &str) -> Self {
         let scripts = [&[UPLOT_SCRIPT, DRAWING_SCRIPT, SHAPES_SCRIPT, run][..], &SCRIPTS].concat();
         // comments and indents stay at home: a page is to be small
         let is_code = |line: &&str| !line.trim_start().starts_with("//");
@@ -186,7 +184,15 @@ pub fn packed(bytes: &[u8]) -> io::Result<String> {
 
 /// The page; its policy of content allows this script, this style and the module, and nothing from elsewhere.
 fn html(info: &Info, packed: &Value, equations: &str) -> String {
-    let Sources { style, script } = Sources::of_pages(info.jumps());
+    let rubs = info.frictions.iter().any(|friction| friction.stop.is_some());
+    let [free, smooth, rough] = mbs_live::RUN_SCRIPTS;
+    let Sources { style, script } = Sources::of_pages(if rubs {
+        rough
+    } else if info.jumps() {
+        smooth
+    } else {
+        free
+    });
     let policy = format!(
         "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}",
         source_hash(&script),

@@ -47,10 +47,13 @@ macro_rules! run_script {
 }
 
 /// The JavaScript that runs a mechanism in its module: it defines `mbs.Mechanism` and `mbs.Run`. The first one is of
-/// mechanisms without stops and without friction that sticks, the second one of all. The order of operations is that of the C
-/// target, so that numbers agree with those of C and Rust to the bit.
-pub const RUN_SCRIPTS: [&str; 2] =
-    [run_script!("text/no_contacts.js"), run_script!("text/sticking.js", "text/modes.js", "text/stops.js")];
+/// mechanisms without stops and without friction that sticks, the second one of those whose stops do not rub, the third one of
+/// all. The order of operations is that of the C target, so that numbers agree with those of C and Rust to the bit.
+pub const RUN_SCRIPTS: [&str; 3] = [
+    run_script!("text/no_contacts.js"),
+    run_script!("text/no_rubbing.js", "text/sticking.js", "text/modes.js", "text/stops.js"),
+    run_script!("text/pivoting.js", "text/rubbing.js", "text/sticking.js", "text/modes.js", "text/stops.js"),
+];
 
 /// A mechanism in WebAssembly.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,10 +86,8 @@ pub struct Wasm {
 /// ```
 ///
 /// # Errors
-/// A stop with friction, which pages do not know; a program that reads what its function is not given, which is a mistake of the
-/// compiler.
+/// A program that reads what its function is not given, which is a mistake of the compiler.
 pub fn wasm(compiled: &Compiled) -> Result<Wasm, Diagnostics> {
-    super::refuse_rubbing(compiled, "a page")?;
     let internal = |fault| Diagnostic::internal(compiled.written.name.span(), fault);
     let module = module(compiled).map_err(internal)?;
     Ok(Wasm { module, tables: tables::tables(compiled) })

@@ -56,8 +56,10 @@ class Modes extends Sticking {
     });
     if (off >= 0) this.failAtStop("APART", off);
     if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("CONTRADICTION", locked.indexOf(true));
-    const set = this.held().map((it, row) => locked[row] || (it && this.isStop(row)));
-    const impulses = this.complementary(set, rates, locked), after = this.changed(rates, impulses);
+    const closed = this.held().map((it, row) => it && this.isStop(row)), directions = this.each(() => 0);
+    const struck = this.answerHit({ closed, bound: locked, directions, bounds: this.bounds(), rates }, rates);
+    if (!struck) this.failAtStop("IMPACT", closed.map((it, row) => it || locked[row]).indexOf(true));
+    const { impulses } = struck, after = this.changed(rates, impulses);
     // and what moves no position by more than rounding
     const slowest = 1e-9 * (1e-3 + size) / this.h;
     m.call("phi_dot", this.t, this.q, this.v, m.phiDot);
@@ -69,6 +71,7 @@ class Modes extends Sticking {
     const ofV = new Float64Array(this.q.length);
     this.addResponses(impulses, 0, ofV);
     add(this.v, 1, ofV);
+    this.noteDirections(struck.rubbed, struck.directions);
   }
 
   // Leads positions to the constraints of the modes that hold; stops that are rested on stay closed.

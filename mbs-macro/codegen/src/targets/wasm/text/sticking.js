@@ -1,5 +1,5 @@
 // Friction that sticks: which of it does, with which forces, and at the ends of steps; see `sticking.c`.
-class Sticking extends Start {
+class Sticking extends AtContacts {
   // The direction in which friction slides; 0 while it sticks.
   direction(row) {
     return this.inputs[this.tables.stops[row]];
@@ -14,6 +14,11 @@ class Sticking extends Start {
   // The rows of frictions.
   frictions() {
     return this.each((row) => row).filter((row) => !this.isStop(row) && !this.isLock(row));
+  }
+
+  // Those of frictions that have no stop.
+  freeFrictions() {
+    return this.frictions().filter((row) => this.stopOf(row) < 0);
   }
 
   // The size of every friction while it slides, and the largest one with which it sticks.
@@ -38,19 +43,25 @@ class Sticking extends Start {
 
   // The forces of which of the frictions stick that do not move, and of stops that are rested on.
   decide(resting, still) {
-    const m = this.mechanism, n = this.q.length, sticking = still.slice(), rows = this.frictions();
-    const locked = this.locked();
-    for (let tries = 0; tries <= 8 * rows.length; tries++) {
+    const m = this.mechanism, n = this.q.length, rows = this.freeFrictions(), rubbed = this.frictions().length - rows.length;
+    const sticking = still.map((it, row) => it && rows.includes(row)), free = sticking.slice();
+    const locked = this.locked(), bounds = this.bounds();
+    // what is off its stop does not rub; what is on it is decided with the stop
+    const rubbing = still.map((it, row) => it && this.stopOf(row) >= 0 && this.isBorne(resting, row));
+    const directions = this.each((row) => (this.stopOf(row) < 0 || rubbing[row] ? 0 : this.direction(row)));
+    for (let tries = 0; tries <= 8 * (rows.length + rubbed); tries++) {
       rows.filter((row) => sticking[row]).forEach((row) => this.setFriction(row, 0, 0));
       m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
       const b = this.gapsAt(this.t, this.q, this.v, m.reactions).map(({ second }) => second);
       m.call("contacts", this.t, this.q, m.contacts);
       const bound = sticking.map((it, row) => it || locked[row]);
-      const forces = this.complementary(resting.map((it, row) => it || bound[row]), b, bound);
+      const rest = { closed: resting, bound, directions, bounds, rates: b };
+      const struck = this.meet(rest, b) ?? this.failAtStop("IMPACT", resting.map((it, row) => it || bound[row]).indexOf(true));
+      const forces = struck.impulses;
       this.addResponses(forces, 0, m.reactions.subarray(0, n));
       this.addResponses(forces, n, m.reactions.subarray(n));
       if (!rows.length) {
-        this.noteMultipliers(locked, forces);
+        this.noteHeld(rubbing, struck, locked);
         return forces;
       }
       const most = this.limits(m.reactions).map((limit) => limit.most);
@@ -69,16 +80,22 @@ class Sticking extends Start {
       }
       const turned = rows.find((row) => {
         const least = 2 * 1e-6 * this.mobility(row, row) * most[row];
-        return still[row] && !sticking[row] && least > 0 && this.direction(row) * (b[row] + changes[row]) < -least;
+        return free[row] && !sticking[row] && least > 0 && this.direction(row) * (b[row] + changes[row]) < -least;
       });
       if (turned === undefined) {
         rows.filter((row) => sticking[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
-        this.noteMultipliers(locked, forces);
+        this.noteHeld(rubbing, struck, locked);
         return forces;
       }
       sticking[turned] = true;
     }
-    return this.failAtStop("JAMMED", still.indexOf(true));
+    return this.failAtStop("JAMMED", free.indexOf(true));
+  }
+
+  // Sets the memories of what rubs on stops, and of the multipliers of modes.
+  noteHeld(rubbing, { impulses, held, directions }, locked) {
+    rubbing.forEach((it, row) => { if (it) this.setFriction(row, directions[row], held[row] ? impulses[row] : 0); });
+    this.noteMultipliers(locked, impulses);
   }
 
   // The first friction of a set that holds nothing, whatever its force: on what a drive moves, and at dead centres.
@@ -131,11 +148,11 @@ class Sticking extends Start {
   }
 
   // The impulses; the worst of those that need more than they can have slides on.
-  findHalts(resting, rates, halted, halting) {
+  findHalts(resting, rates, halted, halting, slides) {
     const fixed = this.each(() => 0), directions = this.each(() => 0);
     for (;;) {
       const b = this.changed(rates, fixed);
-      const x = this.solveAtStops(halted.map((it, row) => it || resting[row]), b);
+      const x = this.solveAtStops(halted.map((it, row) => it || resting[row]), b, slides);
       const total = x.map((it, row) => it + halting[row].given);
       const loose = this.loose(halted, total, halting.map(({ most }) => most));
       if (loose < 0) return { impulses: x.map((it, row) => it + fixed[row]), directions };
@@ -147,16 +164,19 @@ class Sticking extends Start {
 
   // What leads back to where they were what stuck in the whole step and has slipped, and to the constraints of modes; stops
   // that are rested on stay where they are.
-  wayBack(slipped, resting, moved) {
+  wayBack(slipped, resting, moved, slides) {
     if (!slipped.some((it) => it !== undefined) && !this.locked().includes(true)) return this.each(() => 0);
     const b = this.changed(slipped.map((it) => it ?? 0), moved);
-    return this.solveAtStops(slipped.map((it, row) => it !== undefined || resting[row]), b);
+    return this.solveAtStops(slipped.map((it, row) => it !== undefined || resting[row]), b, slides);
   }
 
   // Answers friction at the end of a step, behind what stops did.
   halt(pushed, before) {
-    const m = this.mechanism, n = this.q.length, rows = this.frictions(), locked = this.locked();
-    if (!rows.length && !locked.includes(true)) return;
+    const m = this.mechanism, n = this.q.length, rows = this.freeFrictions(), locked = this.locked();
+    if (!rows.length && !locked.includes(true)) {
+      if (this.frictions().length) this.hold();
+      return;
+    }
     const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved), now = gaps.map(({ rate }) => rate), ends = now.slice();
     const stuck = pushed.map((it, row) => it && rows.includes(row));
     const crossed = now.map((rate, row) => rows.includes(row) && this.direction(row) * rate < 0);
@@ -175,12 +195,13 @@ class Sticking extends Start {
     const acts = stuck.map((it, row) => it || crossed[row] || locked[row]);
     if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("JAMMED", acts.indexOf(true));
     const resting = held.map((it, row) => it && !rows.includes(row));
+    const slides = this.sliding();
     // sliding may come to a halt by the impulses of those that stick
     crossed.fill(false);
     for (;;) {
       const halting = this.halting(stuck, crossed, was, ends, limits);
       const halted = stuck.map((it, row) => it || crossed[row]);
-      const { impulses, directions } = this.findHalts(resting, now, halted, halting);
+      const { impulses, directions } = this.findHalts(resting, now, halted, halting, slides);
       const rates = this.changed(now, impulses);
       const late = rows.filter((row) => !stuck[row] && !crossed[row] && this.direction(row) * rates[row] < 0);
       if (!late.length) {
@@ -190,7 +211,7 @@ class Sticking extends Start {
           if (locked[row] && !this.isOfRates(row)) return gap;
           return halted[row] && stuck[row] ? gap - gapsBefore[row].gap : undefined;
         });
-        const back = this.wayBack(slipped, resting.map((it, row) => it && !this.isOfRates(row)), moved);
+        const back = this.wayBack(slipped, resting.map((it, row) => it && !this.isOfRates(row)), moved, slides);
         this.addResponses(moved, 0, ofQ);
         this.addResponses(back, 0, ofQ);
         this.addResponses(impulses, 0, ofV);

@@ -33,13 +33,20 @@ class AtStops extends Modes {
     return free > 0 && Number.isFinite(free) ? free : this.mobility(row, row);
   }
 
+  // The same and that of what slides on it.
+  slidMobility(of, by, slides) {
+    const own = this.mobility(of, by);
+    return slides?.[by] ? own + slides[by] * this.mobility(of, this.frictionOn(by)) : own;
+  }
+
   // x of a set of stops with W x + b = 0 there, by elimination; 0 of one that depends on others of the set. Constraints of modes
   // are the first, in the order of their pivots. A pivot is rounding beside what it was before the others; of modes, which hold
   // where joints may hold, too, also beside what W would be without joints.
-  solveAtStops(set, b) {
-    const all = this.each((row) => row).filter((row) => set[row]), x = this.each(() => 0);
+  // What slides on stops has so many times their x.
+  solveAtStops(set, b, slides) {
+    const all = this.each((row) => row).filter((row) => set[row] && this.isBorne(set, row)), x = this.each(() => 0);
     const locks = all.filter((row) => this.isLock(row)), members = [...locks, ...all.filter((row) => !this.isLock(row))];
-    const rows = members.map((of) => [...members.map((by) => this.mobility(of, by)), -b[of]]);
+    const rows = members.map((of) => [...members.map((by) => this.slidMobility(of, by, slides)), -b[of]]);
     const before = rows.map((row, at) => row[at]), free = members.map((row) => this.freeMobility(row));
     const isPivot = [], isDone = [];
     for (let turn = 0; turn < rows.length; turn++) {
@@ -56,7 +63,10 @@ class AtStops extends Modes {
         row.forEach((entry, column) => { row[column] = entry - factor * rows[at][column]; });
       });
     }
-    members.forEach((row, at) => { x[row] = isPivot[at] ? rows[at][members.length] / rows[at][at] : 0; });
+    members.forEach((row, at) => {
+      x[row] = isPivot[at] ? rows[at][members.length] / rows[at][at] : 0;
+      if (slides?.[row]) x[this.frictionOn(row)] = slides[row] * x[row];
+    });
     return x;
   }
 
@@ -168,8 +178,9 @@ class AtStops extends Modes {
 
   // The stops that are rested on, the frictions that stick, and the constraints of the modes that hold.
   held() {
-    return this.tables.stops.map((memory, row) =>
+    const held = this.tables.stops.map((memory, row) =>
       this.isStop(row) || this.isLock(row) ? this.inputs[memory] > 0.5 : Math.abs(this.inputs[memory]) < 0.5);
+    return held.map((it, row) => it && this.isBorne(held, row));
   }
 
   // Adds what some stops and frictions do that hold; their forces, and the growth.
@@ -177,7 +188,7 @@ class AtStops extends Modes {
     const m = this.mechanism, n = this.q.length;
     const gaps = this.gapsAt(this.t, this.q, this.v, reactions);
     m.call("contacts", this.t, this.q, m.contacts);
-    const forces = this.solveAtStops(held, gaps.map(({ second }) => second));
+    const forces = this.solveAtStops(held, gaps.map(({ second }) => second), this.sliding());
     this.addResponses(forces, 0, reactions.subarray(0, n));
     this.addResponses(forces, n, reactions.subarray(n));
     return { forces, growth: m.contacts[m.contacts.length - 1] };
@@ -222,19 +233,21 @@ class AtStops extends Modes {
   }
 
   // The impulses of an impact; what others keep closed throws nothing back.
-  answered(set, wanted, rates, locked, isDeep) {
-    const answer = this.answerIfAny(set, wanted, locked);
+  answered(hit, wanted, isDeep) {
+    const { bound: locked, rates } = hit, set = hit.closed.map((it, row) => it || locked[row]);
+    const answer = this.answerHit(hit, wanted);
     if (answer) return answer;
     const kept = this.keptClosed(set, locked);
-    const next = this.answerIfAny(set, wanted.map((it, row) => (kept[row] ? rates[row] : it)), locked);
+    const next = this.answerHit(hit, wanted.map((it, row) => (kept[row] ? rates[row] : it)));
     if (next) return next;
     // where modes and drives lead to what is closed, it gives no impulse while it is closed within what modes may be off
     const isLed = locked.includes(true) && !set.some((it, row) => it && isDeep(row));
-    return isLed ? this.solveAtStops(locked, rates) : this.complementary(set, wanted, locked);
+    return isLed ? { impulses: this.solveAtStops(locked, rates) } : this.failAtStop("IMPACT", set.indexOf(true));
   }
 
   // The impulses at the stops that are closed at the end of a step, or that impulses close, one impact after the other.
-  answer(closed, { before, now, gap, rest, shift }) {
+  answer(closed, { before, now, gap, rest, shift, pushed, slid }) {
+    const none = this.each(() => 0), bounds = this.bounds(), directions = this.each(() => 0);
     const change = now.map((rate, stop) => rate - before[stop]), locked = this.locked();
     const size = largest(this.q.subarray(0, this.tables.lines));
     let impulses = this.each(() => 0), held = this.each(() => false), isImpact = false;
@@ -249,7 +262,7 @@ class AtStops extends Modes {
       const hit = closing.map((it, stop) => it && rates[stop] < -still[stop]);
       if (turn === 16 || !hit.includes(true)) {
         held = held.map((it, stop) => closing[stop] && it && impulses[stop] > 0);
-        return { impulses, moved, gaps, isImpact, held };
+        return { impulses, moved, gaps, isImpact, held, directions: this.moving(directions, rates, impulses) };
       }
       const taken = this.takenIfAny(closed, change, locked);
       const approach = turn === 0 ? now.map((rate, stop) => rate - rest[stop] * change[stop]) : rates;
@@ -259,12 +272,15 @@ class AtStops extends Modes {
       // a force that presses for a step is no impact
       isImpact = isImpact || hit.some((it, stop) => it && -approach[stop] > taken[stop]);
       const wanted = rates.map((rate, stop) => {
-        const later = turn === 0 ? rest[stop] * change[stop] : 0, target = held[stop] || locked[stop] ? 0 : thrown[stop] + later;
+        const later = turn === 0 ? rest[stop] * change[stop] : 0, isStill = held[stop] || locked[stop] || this.stopOf(stop) >= 0;
+        const target = isStill ? 0 : thrown[stop] + later;
         return rate - (target > 0 ? target : 0);
       });
       const isDeep = (row) => this.isStop(row) && gap[row] < -this.allowed(size, this.slope(row));
-      const more = this.answered(closing.map((it, row) => it || locked[row]), wanted, rates, locked, isDeep);
-      impulses = impulses.map((impulse, stop) => impulse + more[stop]);
+      const impact = { closed: closing, bound: locked, directions: none, bounds, rates };
+      const more = this.answered(turn === 0 ? this.turned(impact, wanted, { pushed, slid, before }) : impact, wanted, isDeep);
+      more.rubbed?.forEach((it, row) => { if (it) directions[row] = more.directions[row]; });
+      impulses = impulses.map((impulse, stop) => impulse + more.impulses[stop]);
     }
   }
 
@@ -295,21 +311,29 @@ class AtStops extends Modes {
       const from = was[stop].gap, part = from > 0 && gap < from ? from / (from - gap) : 0;
       return part < 1 ? 1 - part : 0;
     });
-    const { impulses, moved, gaps, held, isImpact } = this.answer(closed, {
+    const shift = rest.map((part, row) => (pushed[row] || this.isLock(row) ? 0 : part * this.h)), isClosed = closed.slice();
+    const ofStop = (row) => (this.stopOf(row) < 0 ? row : this.stopOf(row));
+    const { impulses, moved, gaps, held, isImpact, directions } = this.answer(closed, {
       before: rateBefore,
       now: rateNow,
       gap: now.map(({ gap }) => gap),
       rest,
-      shift: rest.map((part, row) => (pushed[row] || this.isLock(row) ? 0 : part * this.h)),
+      shift: shift.map((_, row) => shift[ofStop(row)]),
+      pushed,
+      slid: this.each((row) => (this.stopOf(row) < 0 ? 0 : this.direction(row))),
     });
-    const locked = this.locked(), set = held.map((it, row) => it || (locked[row] && !this.isOfRates(row)));
-    const shifts = this.solveAtStops(set, gaps).map((shift, stop) => moved[stop] + shift);
+    // what has stuck in the whole step is where it was
+    const stuck = this.held().map((it, row) => it && this.stopOf(row) >= 0 && directions[row] === 0);
+    const locked = this.locked(), set = held.map((it, row) => it || stuck[row] || (locked[row] && !this.isOfRates(row)));
+    const off = gaps.map((gap, row) => (stuck[row] ? gap - was[row].gap : gap));
+    const shifts = this.solveAtStops(set, off).map((shift, stop) => moved[stop] + shift);
     const ofQ = new Float64Array(n), ofV = new Float64Array(n);
     this.addResponses(shifts, 0, ofQ);
     this.addResponses(impulses, 0, ofV);
     add(this.q, 1, ofQ);
     add(this.v, 1, ofV);
     this.noteStops(held, impulses.map((impulse) => (isImpact ? impulse : 0)));
+    this.noteDirections(this.each((row) => isClosed[this.stopOf(row)] || held[this.stopOf(row)]), directions);
   }
 
   // A step, and what stops make of its end.
