@@ -39,6 +39,7 @@ pub mod linkages;
 pub mod operators;
 pub mod pendulum;
 pub mod random;
+pub mod rough;
 pub mod solved;
 pub mod swing;
 pub mod thrown;

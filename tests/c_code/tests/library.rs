@@ -11,6 +11,8 @@ use mbs_codegen::{Compiled, analyse};
 #[path = "../../src/chains.rs"]
 #[macro_use]
 mod chains;
+#[path = "../../src/rough.rs"]
+mod rough;
 
 /// The files of mechanisms that are also compiled with reduced states.
 const REDUCED: [&str; 5] =
@@ -39,7 +41,8 @@ fn some() -> Vec<(String, Compiled)> {
         let compiled = analyse(tokens).unwrap_or_else(|error| panic!("{name}: {error}"));
         (name, compiled)
     };
-    texts.into_iter().step_by(paths::STRIDE).map(compiled).collect()
+    let rough = rough::rough().map(|(name, text)| (name.to_owned(), text)).step_by(paths::STRIDE);
+    texts.into_iter().step_by(paths::STRIDE).chain(rough).map(compiled).collect()
 }
 
 #[test]

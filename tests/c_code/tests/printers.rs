@@ -17,6 +17,10 @@ mod between_stops;
 mod linkages;
 #[path = "../../src/random.rs"]
 mod random;
+#[path = "../../src/rough.rs"]
+mod rough;
+#[path = "../../src/thrown.rs"]
+mod thrown;
 
 const MECHANISMS: u64 = 24;
 const STEPS: usize = 1000;
@@ -155,5 +159,23 @@ fn random_mechanisms_with_modes() {
         let rubbing = between_stops::rubbing(number);
         let text = Text::declaration(format!("modes {number}"), between_stops::switching(number, &rubbing));
         assert!(compare(&format!("modes {number}"), &text, 1e-3, compiler), "{number} starts");
+    }
+}
+
+/// Blocks and rods, thrown on what rubs.
+#[test]
+fn random_mechanisms_on_rough_stops() {
+    let Some(&compiler) = compilers().first() else { return };
+    for number in 0..32 / STRIDE as u64 {
+        let text = Text::declaration(format!("thrown {number}"), thrown::random(number).0);
+        assert!(compare(&format!("thrown {number}"), &text, 1e-3, compiler), "{number} starts");
+    }
+}
+
+#[test]
+fn mechanisms_on_rough_stops() {
+    let Some(&compiler) = compilers().first() else { return };
+    for (name, text) in rough::rough() {
+        assert!(compare(name, &Text::declaration(name, text), 1e-3, compiler), "{name} starts");
     }
 }

@@ -2,7 +2,17 @@
 //! mechanism does, to the last bit: functions at random states, and steps.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
+#[path = "../../../../tests/src/between_stops.rs"]
+mod between_stops;
 mod host;
+#[allow(dead_code, reason = "other tests draw more from it")]
+#[path = "../../../../tests/src/random.rs"]
+mod random;
+#[path = "../../../../tests/src/rough.rs"]
+mod rough;
+mod runs;
+#[path = "../../../../tests/src/thrown.rs"]
+mod thrown;
 
 use std::fs;
 use std::path::Path;
@@ -203,6 +213,14 @@ fn reduced_states() {
     let info = text.compile().unwrap().declared_info();
     assert!(info.states.len() < info.coordinates.len());
     agree(&text);
+}
+
+/// Stops that rub: their functions are as those of others.
+#[test]
+fn rough_stops() {
+    for (name, text) in rough::rough() {
+        agree(&Text::declaration(name, text));
+    }
 }
 
 /// Every elementary function and kind of table, sines of far angles too; those of the host are here the ones of Rust.

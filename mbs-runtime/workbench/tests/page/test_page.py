@@ -11,8 +11,8 @@ import pytest
 from playwright.sync_api import sync_playwright
 
 MBS = os.environ["MBS"]
-# a driven mechanism, chaotic ones, a spline, friction, springs, reduced states
-MODELS = ["slider-crank", "double-pendulum", "cam-follower", "block-on-incline", "jansen", "reduced"]
+# a driven mechanism, chaotic ones, a spline, friction, springs, reduced states, stops that rub
+MODELS = ["slider-crank", "double-pendulum", "cam-follower", "block-on-incline", "jansen", "reduced", "rough"]
 REDUCED = """Reduced {
     dof = 1; states = reduced;
     param length = 0.4 [m] where length > 0;
@@ -26,6 +26,17 @@ REDUCED = """Reduced {
     start { theta = 20 [deg]; }
     output height [mm] = y;
 }"""
+ROUGH = """Rough {
+    dof = 3;
+    gravity = (0, -9.81) [m/s^2];
+    body block (x, y, phi) { mass = 3 [kg]; inertia = 0.05 [kg*m^2]; }
+    point left on block = (-0.2 [m], -0.1 [m]);
+    point right on block = (0.2 [m], -0.1 [m]);
+    stop at_left: block.left.y >= 0 [m] { restitution = 0.3; friction = 0.4; along = block.left.x; }
+    stop at_right: block.right.y >= 0 [m] { restitution = 0.3; friction = 0.4; along = block.right.x; }
+    start { y = 0.15 [m]; phi = 0.3; der(x) = 1 [m/s]; der(phi) = 4 [rad/s]; }
+}"""
+TEXTS = {"reduced": REDUCED, "rough": ROUGH}
 
 
 @pytest.fixture(scope="session")
@@ -41,9 +52,9 @@ class Opened:
 
     def __init__(self, browser, folder, model, *options):
         self.folder, self.model = folder, model
-        if model == "reduced":
-            self.model = folder / "reduced.mbs"
-            self.model.write_text(REDUCED)
+        if model in TEXTS:
+            self.model = folder / f"{model}.mbs"
+            self.model.write_text(TEXTS[model])
         file = folder / f"{model}.html"
         subprocess.run([MBS, "export", "page", self.model, "--out", file, *options], check=True)
         self.page = browser.new_page(viewport={"width": 1200, "height": 900})
