@@ -95,7 +95,7 @@ const ROUGH: [(&str, &str); 8] = [
     ),
 ];
 
-/// What the blocks on an incline have in common, but for their friction.
+/// The blocks on an incline but for their friction.
 const INCLINE: &str = "
     dof = 2;
     param slope = 20 [deg];
