@@ -27,7 +27,7 @@ fn call<T: Real>(function: Function, x: T, y: T) -> T {
         Function::Min => x.min(y),
         Function::Max => x.max(y),
         Function::Pow => x.pow(y),
-        Function::Greater => x.greater(y),
+        Function::Greater | Function::Choice => x.greater(y),
         Function::Gate => x.gate(y),
     }
 }
@@ -54,7 +54,9 @@ fn smooth_points(function: Function, random: &mut Random) -> [f64; 2] {
         Function::Pow => [random.between(0.8, 2.0), random.between(-2.0, 2.0)],
         Function::Abs | Function::Sign => [signed(0.1, 2.0), 0.0],
         Function::Atan2 => [signed(0.8, 2.0), signed(0.8, 2.0)],
-        Function::Min | Function::Max | Function::Greater => [signed(0.1, 1.0), signed(1.1, 2.0)],
+        Function::Min | Function::Max | Function::Greater | Function::Choice => {
+            [signed(0.1, 1.0), signed(1.1, 2.0)]
+        }
         Function::Gate => [signed(0.1, 1.0), signed(0.1, 2.0)],
         _ => [signed(0.0, 2.0), 0.0],
     }

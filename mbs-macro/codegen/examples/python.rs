@@ -84,7 +84,7 @@ fn operation(operation: Operation, a: &str, b: &str) -> Result<String, &'static 
         Operation::Div => format!("{a} / {b}"),
         Operation::Neg => format!("-{a}"),
         Operation::Call(Function::Ln) => format!("log({a})"),
-        Operation::Call(Function::Greater) => format!("float({a} > {b})"),
+        Operation::Call(Function::Greater | Function::Choice) => format!("float({a} > {b})"),
         Operation::Call(Function::Gate) => format!("({b} if {a} else 0.0)"),
         Operation::Call(function) => {
             format!("{}({})", function.row().name, function.arguments(&[a, b]).join(", "))

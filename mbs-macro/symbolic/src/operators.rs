@@ -73,6 +73,8 @@ pub enum Pieces {
     Kinked,
     /// It jumps, and is constant elsewhere.
     Steps,
+    /// It jumps, and what it chooses between is equal there.
+    Seamless,
     /// It is its second argument where the first one is not 0, and 0 elsewhere, whatever the second one is.
     Gate,
 }
@@ -120,7 +122,7 @@ use Dimensions::{Lost, Root, Same};
 use Function as F;
 use Latex::{Around, Bracket, Name, Operator};
 use Parity::{Even, Neither, Odd};
-use Pieces::{Gate, Kinked, One, Steps};
+use Pieces::{Gate, Kinked, One, Seamless, Steps};
 use Range::{All, NotNegative, Unit};
 use Wasm::{Code, Host, Module};
 
@@ -238,6 +240,10 @@ functions! {
     /// 1 if the first argument is larger, else 0
     Greater: "greater", |x, y| f64::from(u8::from(x > y)), |x, _, _| [x.constant(0); 2],
         { is_word: false, range: Unit, pieces: Steps, dimensions: Lost, wasm: Code(&[0x64, 0xb8]),
+          latex: Bracket(">"), ..BINARY };
+    /// the same, for a choice between values that are equal where its arguments are
+    Choice: "greater", |x, y| f64::from(u8::from(x > y)), |x, _, _| [x.constant(0); 2],
+        { is_word: false, range: Unit, pieces: Seamless, dimensions: Lost, wasm: Code(&[0x64, 0xb8]),
           latex: Bracket(">"), ..BINARY };
     /// second argument where the first, which is 0 or 1, is 1; 0 elsewhere, even if the second is no number
     Gate: "gate", |x, y| if x == 0.0 { 0.0 } else { y }, |x, _, _| [x.constant(0), x.call(F::Gate, x.constant(1))],

@@ -68,7 +68,7 @@ impl Arithmetic for Rounded {
             Pieces::Gate => self.error.max(y.error),
             // where rounding decides between the pieces, nothing is known
             Pieces::Steps if (self.value - y.value).abs() <= 4.0 * (self.error + y.error) => f64::INFINITY,
-            Pieces::Steps => 0.0,
+            Pieces::Steps | Pieces::Seamless => 0.0,
         };
         Self { value, error }
     }

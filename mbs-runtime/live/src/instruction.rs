@@ -143,7 +143,7 @@ fn call<T: Real, const C: usize>(function: Function, values: &mut [[T; C]], slot
         Function::Min => binary(values, slots, |a, b| a.min(b)),
         Function::Max => binary(values, slots, |a, b| a.max(b)),
         Function::Pow => binary(values, slots, |a, b| a.pow(b)),
-        Function::Greater => binary(values, slots, |a, b| a.greater(b)),
+        Function::Greater | Function::Choice => binary(values, slots, |a, b| a.greater(b)),
         Function::Gate => binary(values, slots, |a, b| a.gate(b)),
     }
 }

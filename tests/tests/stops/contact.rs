@@ -110,14 +110,14 @@ fn a_ball_begins_to_roll() -> Result<(), Error> {
 }
 
 /// Two free bodies that hit each other off their centres, while they turn.
-fn pair(outline: &str, ends: &str, properties: &str) -> String {
+fn pair([of_a, of_b]: [&str; 2], ends: &str, properties: &str) -> String {
     format!(
         "Pair {{
             dof = 6;
             body a (x, y, phi) {{ mass = 1 [kg]; inertia = 0.004 [kg*m^2]; }}
-            circle rim on a = (0.02 [m], 0.01 [m]) radius 0.1 [m];
+            {of_a}
             body b (x2, y2, phi2) {{ mass = 2 [kg]; inertia = 0.04 [kg*m^2]; }}
-            {outline}
+            {of_b}
             contact c ({ends}) {{ modulus = 0.1 [GPa]; {properties} }}
             start {{
                 y = 0.5 [m]; der(x) = 0.3 [m/s]; der(y) = -2 [m/s]; der(phi) = 20 [rad/s]; der(phi2) = 1 [rad/s];
@@ -141,16 +141,35 @@ fn energy([_, v]: &[Vec<f64>; 2]) -> f64 {
 /// Forces in contact are opposite and act at one point: momenta are what they were. Without friction and loss the energy is, too.
 #[test]
 fn every_pair_of_outlines_conserves_momenta_and_energy() -> Result<(), Error> {
-    let outlines = [
+    let rim = "circle rim on a = (0.02 [m], 0.01 [m]) radius 0.1 [m];";
+    let bar = "segment rim on a = (-0.1 [m], 0.02 [m]) to (0.12 [m], -0.01 [m]) radius 0.03 [m];";
+    let tile = "polygon rim on a = (-0.1 [m], -0.05 [m]) to (0.1 [m], -0.06 [m]) to (0 [m], 0.1 [m]) radius 0.02 [m];";
+    let block = "polygon s on b = (-0.3 [m], -0.1 [m]) to (0.3 [m], -0.1 [m]) to (0.3 [m], 0.08 [m]) to (-0.3 [m], 0.1 [m]);";
+    let with = |of_a| move |of_b| [of_a, of_b];
+    let touched = [
         "circle s on b = (0.05 [m], 0.05 [m]) radius 0.1 [m];",
         "bore s on b = (0.1 [m], 0.02 [m]) radius 0.61 [m];",
         "line s on b = (0.1 [m], 0.05 [m]) along (1, 0.1);",
         "segment s on b = (-0.3 [m], 0.05 [m]) to (0.3 [m], 0.1 [m]) radius 0.02 [m];",
         // its end is hit
         "segment s on b = (0.05 [m], 0.05 [m]) to (0.5 [m], -0.4 [m]) radius 0.02 [m];",
+        // from outside, from within, its end
+        "arc s on b = (0, -0.3 [m]) radius 0.4 [m] from 60 [deg] to 120 [deg];",
+        "arc s on b = (0.1 [m], 0.65 [m]) radius 0.7 [m] from 240 [deg] to 300 [deg];",
+        "arc s on b = (0.3 [m], -0.2 [m]) radius 0.32 [m] from 20 [deg] to 140 [deg];",
+        block,
+        // its corner
+        "polygon s on b = (0, -0.3 [m]) to (0.2 [m], -0.3 [m]) to (0.04 [m], 0.2 [m]);",
     ];
+    let cornered = [
+        "line s on b = (0.1 [m], 0.05 [m]) along (1, 0.1);",
+        "bore s on b = (0.1 [m], 0.02 [m]) radius 0.61 [m];",
+        block,
+    ];
+    let pairs =
+        touched.map(with(rim)).into_iter().chain(cornered.map(with(bar))).chain(cornered.map(with(tile)));
     let tolerances = Tolerances { rtol: 1e-10, ..TIGHT };
-    for outline in outlines {
+    for outline in pairs {
         let mut found = Vec::new();
         for properties in
             ["", "restitution = 0.5; speed = 2 [m/s]; coefficient = 0.4; transition = 1 [cm/s];"]
@@ -160,14 +179,14 @@ fn every_pair_of_outlines_conserves_momenta_and_energy() -> Result<(), Error> {
                 let [start, end] = [1e-9, 0.5].map(|t| at(&text, t, tolerances));
                 let (start, end) = (start?, end?);
                 for (before, behind) in momenta(&start).into_iter().zip(momenta(&end)) {
-                    assert!((before - behind).abs() < 1e-9, "{outline} {ends} {before} {behind}");
+                    assert!((before - behind).abs() < 1e-9, "{outline:?} {ends} {before} {behind}");
                 }
                 let lost = energy(&start) - energy(&end);
-                assert!((end[1][1] + 2.0).abs() > 0.1, "no contact: {outline} {end:?}");
+                assert!((end[1][1] + 2.0).abs() > 0.1, "no contact: {outline:?} {end:?}");
                 if properties.is_empty() {
-                    assert!(lost.abs() < 1e-8, "{outline} {ends} {lost}");
+                    assert!(lost.abs() < 1e-8, "{outline:?} {ends} {lost}");
                 } else {
-                    assert!(lost > 1e-3, "{outline} {ends} {lost}");
+                    assert!(lost > 1e-3, "{outline:?} {ends} {lost}");
                 }
                 found.push(end[1].clone());
             }
@@ -175,7 +194,7 @@ fn every_pair_of_outlines_conserves_momenta_and_energy() -> Result<(), Error> {
         // whichever of them is the first
         for pair in found.chunks(2) {
             let apart = pair[0].iter().zip(&pair[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            assert!(apart < 1e-8, "{outline} {apart}");
+            assert!(apart < 1e-8, "{outline:?} {apart}");
         }
     }
     Ok(())

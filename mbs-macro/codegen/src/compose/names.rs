@@ -194,8 +194,19 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
                 Outline::Point => {}
                 Outline::Circle { radius } | Outline::Bore { radius } => in_formula(radius, visit),
                 Outline::Line { along } => in_vector(along, visit),
+                Outline::Slot { along, width } => {
+                    in_vector(along, visit);
+                    in_formula(width, visit);
+                }
                 Outline::Segment { to, radius } => {
                     in_vector(to, visit);
+                    radius.iter_mut().for_each(|radius| in_formula(radius, visit));
+                }
+                Outline::Arc { radius, from, to } => {
+                    [radius, from, to].into_iter().for_each(|formula| in_formula(formula, visit));
+                }
+                Outline::Polygon { to, radius } => {
+                    to.iter_mut().for_each(|corner| in_vector(corner, visit));
                     radius.iter_mut().for_each(|radius| in_formula(radius, visit));
                 }
             }

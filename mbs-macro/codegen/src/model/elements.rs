@@ -99,7 +99,7 @@ impl Resolver<'_> {
     /// The names that properties of an element know beside others.
     fn known(&mut self, element: &Element, first: Placed, second: Placed) -> Vec<Local> {
         let along = [self.scope.arena.one(), self.scope.arena.zero()];
-        let outlines = [Outline::Circle { radius: self.scope.arena.zero() }; 2];
+        let outlines = [self.scope.arena.zero(); 2].map(|radius| Outline::Circle { radius });
         let (values, words) = (BTreeMap::new(), BTreeMap::new());
         let resolved =
             Resolved { first, second, along, values, memories: None, state: None, outlines, words };
@@ -265,7 +265,7 @@ impl Resolved {
             values: self.values.clone(),
             memories: self.memories,
             state: self.state,
-            outlines: self.outlines.map(|outline| outline.on(algebra)),
+            outlines: self.outlines.each_ref().map(|outline| outline.on(algebra)),
             words: self.words.clone(),
         }
     }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use mbs_symbolic::{Algebra, Arena, Expr, Stage};
+use mbs_symbolic::{Algebra, Arena, Expr, Number, Scalar, Stage, Vector};
 use proc_macro2::Ident;
 
 use super::Direction;
@@ -12,7 +12,10 @@ use super::names::Place;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{Outline, Placed};
-use crate::syntax::{self, Attachment, Clause, Declaration, Item, ItemKind};
+use crate::syntax::{Attachment, Clause, Declaration, Item, ItemKind};
+
+/// An arc is drawn by so many chords.
+const CHORDS: i64 = 12;
 
 /// Points of bodies and pairs of them.
 #[derive(Default)]
@@ -162,31 +165,64 @@ impl Resolver<'_> {
         positions
     }
 
-    /// Adds the outline about a point, as a link from it to a second one that shows its size or direction.
+    /// Adds the outline about a point, as links from places of its body to others: each shows an edge, or a size.
     fn sketch_outline(&mut self, item: &Item, known: &Known, sketch: &mut Sketch) {
-        let ItemKind::Point { name, body, outline, .. } = &item.kind else { return };
-        let kind = match **outline {
-            syntax::Outline::Point => return,
-            syntax::Outline::Circle { .. } => "circle",
-            syntax::Outline::Bore { .. } => "bore",
-            syntax::Outline::Line { .. } => "line",
-            syntax::Outline::Segment { .. } => "segment",
-        };
+        let ItemKind::Point { name, body, .. } = &item.kind else { return };
         let place = Attachment::of_path(body.clone(), vec![name.clone()]);
         let Some(&first) = known.get(&(body.to_string(), Some(name.to_string()))) else { return };
         let Some(outline) = self.outline_at(&place) else { return };
         let zero = self.scope.arena.zero();
-        let away = match outline {
-            Outline::Circle { radius } | Outline::Bore { radius } => [radius, zero],
-            Outline::Line { along: way } | Outline::Segment { way, .. } => way.components(),
-        };
         let Point { origin, angle, local, .. } = sketch.points[first];
         let local = local.unwrap_or([zero; 2]);
-        let arena = &mut self.scope.arena;
-        let local = Some([arena.add(local[0], away[0]), arena.add(local[1], away[1])]);
-        sketch.points.push(Point { name: format!("{body}.{name}.{kind}"), origin, angle, local });
-        let second = sketch.points.len() - 1;
-        sketch.joints.push(Link { name: name.to_string(), kind, first, second, ahead: None });
+        for (kind, path) in self.paths(outline) {
+            let mut corners: Vec<usize> = if path.len() == 1 { vec![first] } else { Vec::new() };
+            for away in path {
+                let arena = &mut self.scope.arena;
+                let local = Some([arena.add(local[0], away[0]), arena.add(local[1], away[1])]);
+                let name = format!("{body}.{name}.{kind}");
+                corners.push(sketch.points.len());
+                sketch.points.push(Point { name, origin, angle, local });
+            }
+            for (&first, &second) in corners.iter().zip(corners.iter().skip(1)) {
+                sketch.joints.push(Link { name: name.to_string(), kind, first, second, ahead: None });
+            }
+        }
+    }
+
+    /// The lines of an outline, and what each is drawn as: from its place to one that is so far away, or through several.
+    fn paths(&mut self, outline: Outline) -> Vec<(&'static str, Vec<[Expr; 2]>)> {
+        let zero = self.scope.arena.zero();
+        match outline {
+            Outline::Circle { radius } if radius == zero => Vec::new(),
+            Outline::Circle { radius } => vec![("circle", vec![[radius, zero]])],
+            Outline::Bore { radius } => vec![("bore", vec![[radius, zero]])],
+            Outline::Line { along } => vec![("line", vec![along.components()])],
+            Outline::Segment { way, .. } => vec![("segment", vec![way.components()])],
+            Outline::Arc { radius, middle, half } => vec![("segment", self.chords(radius, middle, half))],
+            Outline::Polygon { ways, .. } => {
+                let place = [[zero; 2]];
+                let corners = ways.into_iter().map(Vector::components);
+                vec![("segment", place.into_iter().chain(corners).chain(place).collect())]
+            }
+            Outline::Slot { along, half } => {
+                let algebra = Algebra::new(&mut self.scope.arena);
+                let (along, half) = (algebra.vector(along.components()), algebra.scalar(half));
+                let aside = half / along.norm() * along.perpendicular();
+                [aside, -aside].map(|aside| ("line", vec![aside.exprs(), (aside + along).exprs()])).into()
+            }
+        }
+    }
+
+    /// The ends of chords of an arc, from its centre.
+    fn chords(&mut self, radius: Expr, middle: Expr, half: Expr) -> Vec<[Expr; 2]> {
+        let algebra = Algebra::new(&mut self.scope.arena);
+        let [radius, middle, half] = [radius, middle, half].map(|x| algebra.scalar(x));
+        let end = |at: i64| {
+            let share = Number::ratio(2 * at - CHORDS, CHORDS);
+            let angle = middle + half * algebra.number(share);
+            [radius * angle.cos(), radius * angle.sin()].map(Scalar::expr)
+        };
+        (0..=CHORDS).map(end).collect()
     }
 
     /// Adds a joint, a spring or a particle; of other statements, nothing.

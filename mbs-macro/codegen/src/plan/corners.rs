@@ -189,7 +189,7 @@ fn pieces(arena: &Arena, roots: &[Expr], depends: &HashMap<Expr, Depends>) -> Ve
 
 fn has_pieces(arena: &Arena, node: Expr) -> bool {
     match arena.node(node) {
-        Node::Call(function, _) => !matches!(function.row().pieces, Pieces::One | Pieces::Gate),
+        Node::Call(function, _) => matches!(function.row().pieces, Pieces::Kinked | Pieces::Steps),
         Node::Spline(..) => true,
         _ => false,
     }

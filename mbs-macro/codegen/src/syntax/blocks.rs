@@ -59,7 +59,15 @@ impl Reader<'_> {
         };
         let example = "mode engaged { fixed lock (plate, wheel); }";
         self.block_of((content, indices), example, (modes::is_row, others, &help), &mut inner)?;
-        let rows = inner.iter().filter_map(modes::row).collect();
+        let rows: Vec<Ident> = inner.iter().filter_map(modes::row).collect();
+        if rows.len() < inner.len() {
+            let message = format!("`{name}` has a joint with play, which is no constraint");
+            return Err(helped(
+                name.span(),
+                message,
+                "declare it around the mode, or leave its `clearance` out",
+            ));
+        }
         items.extend(inner);
         items.push(Item { doc, position, kind: ItemKind::Mode { name, value, rows } });
         Ok(())

@@ -17,7 +17,7 @@ use super::words::{
     with_unit,
 };
 use super::{Coordinate, Declaration, EnergyRole, ItemKind, Load, Role, StartEntry};
-use super::{elements, groups, joints};
+use super::{elements, groups, joints, loose};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::mechanics::elements::{ELEMENTS, FORCE_BETWEEN, TORQUE_BETWEEN};
 use crate::quantity::Crossing;
@@ -64,7 +64,9 @@ fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Decla
 }
 
 /// A statement with its doc comment.
-pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
+///
+/// One that stands for several gives these.
+pub(super) fn item(input: ParseStream<'_>) -> Result<(String, Vec<ItemKind>)> {
     let doc = doc(input)?;
     let keyword = Ident::parse_any(input).map_err(|error| {
         Error::new(error.span(), format!("a statement is expected here: {}", statements().join(", ")))
@@ -75,11 +77,12 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<(String, ItemKind)> {
     let element = ELEMENTS.iter().find(|kind| kind.word == word);
     let kind = match (statement, joint, element) {
         (Some((.., read)), _, _) => read(input, keyword.span()),
+        (None, Some(_), _) if loose::is_loose(input) => return Ok((doc, loose::joint(input, &keyword)?)),
         (None, Some(shape), _) => joints::joint(input, shape),
         (None, None, Some(kind)) => elements::element(input, kind),
         (None, None, None) => Err(unknown_statement(&keyword, &word)),
     }?;
-    Ok((doc, kind))
+    Ok((doc, vec![kind]))
 }
 
 /// The words that begin statements.

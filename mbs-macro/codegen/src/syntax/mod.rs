@@ -10,6 +10,7 @@ mod indices;
 mod items;
 mod joints;
 mod keywords;
+mod loose;
 mod modes;
 mod outlines;
 mod particles;

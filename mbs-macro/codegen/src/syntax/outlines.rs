@@ -19,15 +19,24 @@ pub enum Outline {
     Bore { radius: Formula },
     /// `line floor on ground = (0, 0) along (1, 0);`
     Line { along: Vector },
+    /// `slot groove on wheel = (0, 0) along (1, 0) width 10.2 [mm];`
+    Slot { along: Vector, width: Formula },
     /// `segment edge on door = (0, 0) to (0.8, 0);`, round with a `radius`
     Segment { to: Vector, radius: Option<Formula> },
+    /// `arc rim on wheel = (0, 0) radius 0.3 from -45 [deg] to 45 [deg];`
+    Arc { radius: Formula, from: Formula, to: Formula },
+    /// `polygon box on crate = (0, 0) to (0.2, 0) to (0.2, 0.1) to (0, 0.1);`, round with a `radius`
+    Polygon { to: Vec<Vector>, radius: Option<Formula> },
 }
 
 const POINT: &str = "point tip on crank = (l/2, 0);";
 const CIRCLE: &str = "circle rim on wheel = (0, 0) radius 0.3 [m];";
 const BORE: &str = "bore hole on housing = (0, 0) radius 10.1 [mm];";
 const LINE: &str = "line floor on ground = (0, 0) along (1, 0);";
+const SLOT: &str = "slot groove on wheel = (0, 0) along (1, 0) width 10.2 [mm];";
 const SEGMENT: &str = "segment edge on door = (0, 0) to (0.8 [m], 0) radius 5 [mm];";
+const ARC: &str = "arc rim on wheel = (0, 0) radius 0.3 [m] from -45 [deg] to 45 [deg];";
+const POLYGON: &str = "polygon box on crate = (0, 0) to (0.2 [m], 0) to (0.2 [m], 0.1 [m]) to (0, 0.1 [m]);";
 
 pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
     outline(input, POINT, |_| Ok(Outline::Point))
@@ -45,13 +54,42 @@ pub(super) fn line(input: ParseStream<'_>) -> Result<ItemKind> {
     outline(input, LINE, |input| Ok(Outline::Line { along: clause(input, "along", LINE)? }))
 }
 
+pub(super) fn slot(input: ParseStream<'_>) -> Result<ItemKind> {
+    outline(input, SLOT, |input| {
+        Ok(Outline::Slot { along: clause(input, "along", SLOT)?, width: clause(input, "width", SLOT)? })
+    })
+}
+
 pub(super) fn segment(input: ParseStream<'_>) -> Result<ItemKind> {
     outline(input, SEGMENT, |input| {
-        let to = clause(input, "to", SEGMENT)?;
-        let is_round = input.fork().call(Ident::parse_any).is_ok_and(|word| word == "radius");
-        let radius = is_round.then(|| clause(input, "radius", SEGMENT)).transpose()?;
-        Ok(Outline::Segment { to, radius })
+        Ok(Outline::Segment { to: clause(input, "to", SEGMENT)?, radius: edge(input, SEGMENT)? })
     })
+}
+
+pub(super) fn arc(input: ParseStream<'_>) -> Result<ItemKind> {
+    outline(input, ARC, |input| {
+        let radius = clause(input, "radius", ARC)?;
+        Ok(Outline::Arc { radius, from: clause(input, "from", ARC)?, to: clause(input, "to", ARC)? })
+    })
+}
+
+pub(super) fn polygon(input: ParseStream<'_>) -> Result<ItemKind> {
+    outline(input, POLYGON, |input| {
+        let mut to = vec![clause(input, "to", POLYGON)?, clause(input, "to", POLYGON)?];
+        while is_next(input, "to") {
+            to.push(clause(input, "to", POLYGON)?);
+        }
+        Ok(Outline::Polygon { to, radius: edge(input, POLYGON)? })
+    })
+}
+
+/// The radius of a round edge, which may be left out.
+fn edge(input: ParseStream<'_>, example: &str) -> Result<Option<Formula>> {
+    is_next(input, "radius").then(|| clause(input, "radius", example)).transpose()
+}
+
+fn is_next(input: ParseStream<'_>, word: &str) -> bool {
+    input.fork().call(Ident::parse_any).is_ok_and(|found| found == word)
 }
 
 /// A name, its body, its place, and what stands behind that.

@@ -79,7 +79,7 @@ impl<'a> Reader<'a> {
     ) -> Result<()> {
         self.position += 1;
         self.count_one(content.span())?;
-        let (doc, kind) = match indices.resolve(tokens.clone()) {
+        let (doc, kinds) = match indices.resolve(tokens.clone()) {
             Some(resolved) => {
                 let item = (|input: ParseStream<'_>| {
                     let item = item(input)?;
@@ -99,7 +99,8 @@ impl<'a> Reader<'a> {
                 item
             }
         };
-        items.push(Item { doc, position: self.position, kind });
+        let position = self.position;
+        items.extend(kinds.into_iter().map(|kind| Item { doc: doc.clone(), position, kind }));
         Ok(())
     }
 

@@ -210,6 +210,11 @@ impl<'a> Scalar<'a> {
         self.call(Function::Greater, other)
     }
 
+    /// The same, for a choice between values that are equal where both are.
+    pub fn chooses(self, other: Self) -> Self {
+        self.call(Function::Choice, other)
+    }
+
     /// The other one where this, which is 0 or 1, is 1; else 0.
     pub fn gate(self, other: Self) -> Self {
         self.call(Function::Gate, other)

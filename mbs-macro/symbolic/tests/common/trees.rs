@@ -24,8 +24,15 @@ const UNARY: [Function; 12] = [
     Function::Sign,
 ];
 
-const BINARY: [Function; 6] =
-    [Function::Atan2, Function::Min, Function::Max, Function::Pow, Function::Greater, Function::Gate];
+const BINARY: [Function; 6] = [
+    Function::Atan2,
+    Function::Min,
+    Function::Max,
+    Function::Pow,
+    Function::Greater,
+    Function::Choice,
+    Function::Gate,
+];
 
 fn boxed(tree: Tree) -> Box<Tree> {
     Box::new(tree)

@@ -1,4 +1,4 @@
-//! Compliant contact of two outlines, of which one is a circle or a point.
+//! Compliant contact of two outlines, by circles that touch the other one ([`pairs`]): a circle itself, or corners.
 //!
 //! With the distance g of the outlines and the normal n from the second to the first, the penetration is δ = −g. Where it is
 //! positive, the first body is pushed along n by N, which is not less than 0:
@@ -11,12 +11,12 @@
 //! Friction is −μ N tanh(v/v_t), v the speed of sliding at the point of contact, in the middle of
 //! the penetration.
 
+use mbs_symbolic::Scalar;
 use mbs_symbolic::units::Dimension;
-use mbs_symbolic::{Number, Scalar, Vector};
 
+use super::nearest::{Nearest, Pair, pairs};
 use super::properties::{FORCE, Given, Property, SPEED, Unsaid};
 use super::{Effects, Element, ElementKind, Places};
-use crate::mechanics::{Outline, Placed};
 
 const LAW: &str = "law";
 const HUNT_CROSSLEY: &str = "hunt_crossley";
@@ -25,24 +25,30 @@ const FLORES: &str = "flores";
 const WORDS: &[&str] = &[HUNT_CROSSLEY, LANKARANI_NIKRAVESH, FLORES];
 const EXAMPLE: &str =
     "{ stiffness = 1 [MN/m]; restitution = 0.6; speed = 1 [m/s]; coefficient = 0.3; transition = 1 [mm/s]; }";
-/// Below this length a distance has no direction.
-const NOWHERE: f64 = 1e-15;
+
+/// The properties of a contact, behind others.
+macro_rules! properties {
+    ($($size:literal),*) => {
+        &[
+            $(Property::fixed($size, Dimension::LENGTH).positive(),)*
+            Property::word(LAW, WORDS),
+            Property::fixed("stiffness", Dimension::of(1, 0, -2)).positive(),
+            Property::fixed("modulus", Dimension::of(1, -1, -2)).positive(),
+            Property::fixed("damping", Dimension::of(1, 0, -1)).not_negative(),
+            Property::fixed("restitution", Dimension::NONE).share(),
+            Property::fixed("speed", SPEED).positive(),
+            Property::varying("coefficient", Dimension::NONE).not_negative(),
+            Property::fixed("transition", SPEED).positive(),
+        ]
+    };
+}
 
 pub const CONTACT: ElementKind = ElementKind {
     word: "contact",
     meaning: "pushes outlines apart where they touch, and rubs",
     example: "(wheel.rim, ground.floor) { stiffness = 1 [MN/m]; restitution = 0.6; speed = 1 [m/s]; }",
     places: Places::Two,
-    properties: &[
-        Property::word(LAW, WORDS),
-        Property::fixed("stiffness", Dimension::of(1, 0, -2)).positive(),
-        Property::fixed("modulus", Dimension::of(1, -1, -2)).positive(),
-        Property::fixed("damping", Dimension::of(1, 0, -1)).not_negative(),
-        Property::fixed("restitution", Dimension::NONE).share(),
-        Property::fixed("speed", SPEED).positive(),
-        Property::varying("coefficient", Dimension::NONE).not_negative(),
-        Property::fixed("transition", SPEED).positive(),
-    ],
+    properties: properties!(),
     said,
     knows: &[],
     moved: |contact| (contact.first.position - contact.second.position).components().into(),
@@ -50,6 +56,36 @@ pub const CONTACT: ElementKind = ElementKind {
     needs: None,
     refuses,
     forces: act,
+};
+
+/// A pin with play in its bore.
+pub const LOOSE_REVOLUTE: ElementKind = ElementKind {
+    word: "revolute",
+    example: "(crank.tip, rod.eye) clearance = 0.1 [mm] { radius = 10 [mm]; modulus = 1 [GPa]; restitution = 0.9; speed = 0.1 [m/s]; }",
+    properties: properties!("clearance", "radius"),
+    said: |given| {
+        given.all(
+            &["radius"],
+            "{ radius = 10 [mm]; modulus = 1 [GPa]; restitution = 0.9; speed = 0.1 [m/s]; }",
+        )?;
+        said(given)
+    },
+    ..CONTACT
+};
+
+/// A block with play in its guide.
+pub const LOOSE_PRISMATIC: ElementKind = ElementKind {
+    word: "prismatic",
+    example: "(slider, ground) along (1, 0) clearance = 1 [mm] { length = 100 [mm]; height = 50 [mm]; stiffness = 10 [MN/m]; damping = 1 [kN*s/m]; }",
+    properties: properties!("clearance", "length", "height"),
+    said: |given| {
+        given.all(
+            &["length", "height"],
+            "{ length = 100 [mm]; height = 50 [mm]; stiffness = 10 [MN/m]; damping = 1 [kN*s/m]; }",
+        )?;
+        said(given)
+    },
+    ..CONTACT
 };
 
 fn said(given: &Given<'_>) -> Result<(), Unsaid> {
@@ -77,19 +113,16 @@ fn said(given: &Given<'_>) -> Result<(), Unsaid> {
 }
 
 fn refuses(contact: &Element<'_>) -> Option<[&'static str; 2]> {
-    let Some(pair) = Pair::of(contact) else {
+    let pairs = pairs(contact);
+    // that sizes of a joint with play are missing has its error
+    if pairs.is_empty() && contact.get("clearance").is_none() {
         return Some([
             "is between outlines that no contact knows",
-            "one of them is a point or a `circle`, the other one a `circle`, a `bore`, a `line` or a `segment`",
+            "a point or a `circle` touches every outline; corners of a `segment` or a `polygon` touch a `line`, a `bore`, a \
+             `segment` or a `polygon`",
         ]);
-    };
-    let is_round = match pair.outline {
-        Outline::Circle { radius } | Outline::Segment { radius, .. } => {
-            !(pair.radius.is_zero() && radius.is_zero())
-        }
-        Outline::Bore { .. } | Outline::Line { .. } => true,
-    };
-    if !is_round {
+    }
+    if pairs.iter().any(Pair::is_thin) {
         return Some([
             "is between outlines without thickness, which touch nowhere",
             "give one of them a radius: `circle rim on wheel = (0, 0) radius r;`",
@@ -102,104 +135,30 @@ fn refuses(contact: &Element<'_>) -> Option<[&'static str; 2]> {
             "take `law = hunt_crossley;`, or a `damping`",
         ]);
     }
-    let is_pointed =
-        pair.radius.is_zero() || matches!(pair.outline, Outline::Circle { radius } if radius.is_zero());
-    (contact.get("modulus").is_some() && is_pointed).then_some([
+    let is_pointed = contact.get("modulus").is_some() && pairs.iter().any(Pair::is_pointed);
+    is_pointed.then_some([
         "has a `modulus` and a point, which has no curvature",
         "give it a radius, or the contact a `stiffness`",
     ])
 }
 
-/// A circle and what it touches.
-struct Pair<'a> {
-    circle: Placed<Scalar<'a>>,
-    radius: Scalar<'a>,
-    other: Placed<Scalar<'a>>,
-    outline: Outline<Scalar<'a>>,
-}
-
-/// Where outlines are nearest.
-struct Nearest<'a> {
-    /// n, from the other outline to the circle.
-    normal: Vector<Scalar<'a>>,
-    distance: Scalar<'a>,
-    /// From the place of the other outline to the centre of the circle, along n and along t, which is n turned to the right.
-    arm: [Scalar<'a>; 2],
-}
-
-impl<'a> Pair<'a> {
-    fn of(contact: &Element<'a>) -> Option<Self> {
-        let (first, second) = (contact.first, contact.second);
-        match contact.outlines {
-            [Outline::Circle { radius }, outline] => {
-                Some(Self { circle: first, radius, other: second, outline })
-            }
-            [outline, Outline::Circle { radius }] => {
-                Some(Self { circle: second, radius, other: first, outline })
-            }
-            _ => None,
-        }
-    }
-
-    fn nearest(&self) -> Nearest<'a> {
-        let d = self.circle.position - self.other.position;
-        let zero = self.radius.algebra().number(0);
-        match self.outline {
-            Outline::Circle { radius } => {
-                let (normal, length) = away(d);
-                Nearest { normal, distance: length - self.radius - radius, arm: [length, zero] }
-            }
-            Outline::Bore { radius } => {
-                let (direction, length) = away(d);
-                let distance = radius - self.radius - length;
-                Nearest { normal: -direction, distance, arm: [-length, zero] }
-            }
-            Outline::Line { along } => {
-                let along = (along.rotated(self.other.angle) / along.norm()).map(Scalar::shared);
-                let normal = along.perpendicular();
-                let height = normal.dot(d).shared();
-                Nearest { normal, distance: height - self.radius, arm: [height, along.dot(d)] }
-            }
-            Outline::Segment { way, radius } => {
-                let length = way.norm();
-                let along = (way.rotated(self.other.angle) / length).map(Scalar::shared);
-                let foot = along.dot(d).max(zero).min(length).shared();
-                let (normal, height) = away(d - foot * along);
-                let arm = [normal.dot(d), -normal.perpendicular().dot(d)];
-                Nearest { normal, distance: height - self.radius - radius, arm }
-            }
-        }
-    }
-
-    /// 1/R, the sum of the curvatures; a point has none.
-    fn curvature(&self) -> Scalar<'a> {
-        let of = |radius: Scalar<'a>| self.radius.algebra().number(1) / radius;
-        match self.outline {
-            Outline::Circle { radius } => of(self.radius) + of(radius),
-            Outline::Bore { radius } => of(self.radius) - of(radius),
-            Outline::Line { .. } | Outline::Segment { .. } => of(self.radius),
-        }
-    }
-}
-
-/// The direction of a difference, 0 where it has no length, and its length.
-fn away<'a>(d: Vector<Scalar<'a>>) -> (Vector<Scalar<'a>>, Scalar<'a>) {
-    let nowhere = d.x.algebra().number(Number::float(NOWHERE * NOWHERE));
-    let length = d.dot(d).max(nowhere).sqrt().shared();
-    ((d / length).map(Scalar::shared), length)
-}
-
 fn act<'a>(contact: &Element<'a>, effects: &mut Effects<'_>) -> Option<()> {
-    let pair = Pair::of(contact)?;
+    let pushes =
+        pairs(contact).iter().map(|pair| push_apart(contact, pair, effects)).collect::<Option<Vec<_>>>()?;
+    effects.exert(contact.algebra.sum(pushes), FORCE);
+    Some(())
+}
+
+/// Applies the forces between a circle and what it touches, and gives the normal one.
+fn push_apart<'a>(contact: &Element<'a>, pair: &Pair<'a>, effects: &mut Effects<'_>) -> Option<Scalar<'a>> {
     let Nearest { normal, distance, arm: [ahead, aside] } = pair.nearest();
-    let Pair { circle, radius, other, .. } = pair;
+    let Pair { circle, radius, other, .. } = *pair;
     let (d, tangent) = (circle.position - other.position, -normal.perpendicular());
     let rates = d.map(|component| effects.rate(component));
     let [spin, other_spin] = [circle.angle, other.angle].map(|angle| effects.rate(angle));
     let parting = normal.dot(rates) - aside * other_spin;
     let depth = (-distance).shared();
-    let push = pushed(contact, &pair, [depth, -parting], effects)?.shared();
-    effects.exert(push, FORCE);
+    let push = pushed(contact, pair, [depth, -parting], effects)?.shared();
     let (mut force, mut moments) = (push * normal, [contact.algebra.number(0), -aside * push]);
     if let (Some(coefficient), Some(transition)) = (contact.get("coefficient"), contact.get("transition")) {
         // the point of contact is in the middle of the penetration
@@ -214,7 +173,7 @@ fn act<'a>(contact: &Element<'a>, effects: &mut Effects<'_>) -> Option<()> {
     effects.apply(force.y, d.y);
     effects.apply(moments[0], circle.angle);
     effects.apply(moments[1], other.angle);
-    Some(())
+    Some(push)
 }
 
 /// N ≥ 0 of a penetration and its rate; what is elastic in it is stored.

@@ -9,10 +9,12 @@ mod friction;
 mod kind;
 mod law;
 mod motor;
+mod nearest;
 mod one_sided;
 mod properties;
 mod spring;
 
+pub use contact::{LOOSE_PRISMATIC, LOOSE_REVOLUTE};
 pub use effects::{Effects, Element, Exerts, Sticks};
 pub use friction::{COULOMB, LUGRE, PRESLIDING};
 pub use kind::{ElementKind, Freedom, Known, Places};
