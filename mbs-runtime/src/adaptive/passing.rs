@@ -74,18 +74,16 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         pairs.map(|(from, to)| self.surprise(from, to)).fold(0.0, f64::max)
     }
 
-    /// True if a value leaves its piece within the step that was tried and is back at its end. The distance of two balls
-    /// does, if a step leads one through the other.
-    pub(super) fn dips(&mut self, pieces: [f64; MOST_SWITCHES]) -> bool {
-        let rounded = self.switching.rounded;
+    /// True if one of some values leaves its piece within the step that was tried, and is back at its end. The distance of two
+    /// balls does, if a step leads one through the other.
+    pub(super) fn dips(&mut self, pieces: [f64; MOST_SWITCHES], counts: impl Fn(usize) -> bool) -> bool {
         WITHIN.into_iter().any(|share| {
             let there = self.within(share);
             let Self { dynamics, inputs, all, .. } = self;
             let values = switches_at((&*dynamics, &*inputs), &there, all);
             let switches = self.dynamics.equations().switching().iter();
-            let mut known = switches.zip(values).zip(pieces).zip(rounded);
-            known
-                .any(|(((switch, value), piece), rounded)| rounded == 0 && switch.knots.piece(value) != piece)
+            let mut known = switches.zip(values).zip(pieces).enumerate();
+            known.any(|(index, ((switch, value), piece))| counts(index) && switch.knots.piece(value) != piece)
         })
     }
 

@@ -145,16 +145,20 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 (begin, _) => begin.copied().unwrap_or_default(),
             })
         });
-        let known = switches.iter().zip(pieces).zip(self.switching.rounded);
+        let (ends, rounded) = (pieces_of(switches, values), self.switching.rounded);
         // rounding decides of which piece a value is that is held
-        let mut ends = values.into_iter().zip(known).filter(|(_, (_, rounded))| *rounded == 0);
-        let passes = ends.any(|(value, ((switch, piece), _))| switch.knots.piece(value) != piece);
-        if !passes {
-            let is_long = (self.next.t - self.now.t).to_f64() > LONG * self.effort.longest;
-            return if is_long && self.dips(pieces) { self.halved() } else { ratio };
+        let counts = |index: usize| rounded.get(index) == Some(&0);
+        let passes = |index: usize| counts(index) && ends.get(index) != pieces.get(index);
+        let is_passed = (0..switches.len()).any(passes);
+        let is_long = (self.next.t - self.now.t).to_f64() > LONG * self.effort.longest;
+        // a value that is back at the end, beside others that are not
+        if is_long && self.dips(pieces, |index| counts(index) && !passes(index)) {
+            return self.halved();
         }
-        let rounded = self.switching.rounded;
-        let left_out = self.left_out(pieces, values, |index| rounded.get(index) == Some(&0));
+        if !is_passed {
+            return ratio;
+        }
+        let left_out = self.left_out(pieces, values, counts);
         (STRICT * ratio).max(left_out)
     }
 }
