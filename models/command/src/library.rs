@@ -7,25 +7,31 @@ use mbs_workbench::Settings;
 pub struct Entry {
     /// The name under which commands know it.
     pub name: &'static str,
-    /// The type that its declaration makes.
-    pub mechanism: &'static str,
+    /// The type of the crate `models` that its declaration makes; a text makes none.
+    pub mechanism: Option<&'static str>,
     file: &'static str,
     source: &'static str,
 }
 
+/// Those of types by their names, files and types, and those of texts by their names.
 macro_rules! entries {
-    ($($name:literal, $file:literal, $mechanism:literal;)*) => {
-        [$(Entry {
+    ($($name:literal, $file:literal, $mechanism:literal;)* texts: $($text:literal;)*) => {
+        &[$(Entry {
             name: $name,
-            mechanism: $mechanism,
-            file: $file,
+            mechanism: Some($mechanism),
+            file: concat!("src/", $file),
             source: include_str!(concat!("../../src/", $file)),
-        }),*]
+        },)* $(Entry {
+            name: $text,
+            mechanism: None,
+            file: concat!("texts/", $text, ".mbs"),
+            source: include_str!(concat!("../../texts/", $text, ".mbs")),
+        },)*]
     };
 }
 
-/// Names, files and types, in the order of `mbs list`.
-static LIBRARY: [Entry; 51] = entries! {
+/// In the order of `mbs list`.
+static LIBRARY: &[Entry] = entries! {
     "slider-crank", "slider_crank.rs", "SliderCrank";
     "slider-crank-free", "slider_crank_free.rs", "SliderCrankFree";
     "pendulum", "pendulum.rs", "Pendulum";
@@ -77,19 +83,34 @@ static LIBRARY: [Entry; 51] = entries! {
     "jansen", "jansen.rs", "Jansen";
     "jansen-walker", "jansen_walker.rs", "JansenWalker";
     "klann", "klann.rs", "Klann";
+    texts:
+    "clearance-crank";
+    "geneva-contact";
+    "ratchet";
+    "escapement";
+    "one-way-clutch";
+    "toggle-latch";
+    "door-closer";
+    "bumper";
+    "valve-train";
+    "stick-slip";
+    "rocking-block";
+    "compass-walker";
 };
 
 /// The mechanisms of the library, in the order of `mbs list`.
 pub fn library() -> &'static [Entry] {
-    &LIBRARY
+    LIBRARY
 }
 
 impl Entry {
     /// The declaration.
     pub fn text(&self) -> Text {
+        let file = format!("models/{}", self.file);
+        let Some(mechanism) = self.mechanism else { return Text::declaration(file, self.source) };
         // the name tells them apart where a file has several
-        let source = chain(self.source, self.mechanism).unwrap_or_else(|| self.source.to_owned());
-        Text::rust(format!("models/src/{}", self.file), source)
+        let source = chain(self.source, mechanism).unwrap_or_else(|| self.source.to_owned());
+        Text::rust(file, source)
     }
 
     /// The settings of its runs where nothing else is said.
@@ -108,6 +129,18 @@ impl Entry {
             // as far as a page shows a turn
             "chaplygin-sleigh" | "differential-drive" => Settings { end: 4.0, ..Settings::default() },
             "drop-hammer" => Settings { end: 6.0, ..Settings::default() },
+            "bumper" => Settings { step: 1e-4, end: 3.0, ..Settings::default() },
+            "one-way-clutch" => Settings { end: 3.0, ..Settings::default() },
+            "clearance-crank" => Settings { step: 10e-6, end: 0.1, ..Settings::default() },
+            "compass-walker" => Settings { end: 4.38, ..Settings::default() },
+            "door-closer" => Settings { step: 1e-3, end: 6.5, ..Settings::default() },
+            "escapement" => Settings { step: 1e-4, end: 4.032, ..Settings::default() },
+            "geneva-contact" => Settings { step: 20e-6, end: 2.0, ..Settings::default() },
+            "ratchet" => Settings { step: 40e-6, end: 2.0, ..Settings::default() },
+            "rocking-block" => Settings { end: 7.5, ..Settings::default() },
+            "stick-slip" => Settings { end: 3.98, ..Settings::default() },
+            "toggle-latch" => Settings { step: 0.2e-3, end: 2.2, ..Settings::default() },
+            "valve-train" => Settings { step: 10e-6, end: 0.4, ..Settings::default() },
             "newtons-cradle" => Settings { end: 3.0, ..Settings::default() },
             _ => Settings::default(),
         }

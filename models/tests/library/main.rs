@@ -222,7 +222,7 @@ fn laws_hold() {
 /// A mechanism that is added to the library has to be added to the command, and here.
 #[test]
 fn no_mechanism_is_left_out() {
-    let known: Vec<_> = mbs::library().iter().map(|entry| entry.mechanism).collect();
+    let known: Vec<_> = mbs::library().iter().filter_map(|entry| entry.mechanism).collect();
     assert_eq!(NAMES, known, "rows here, then the library of the command");
     let sources = include_str!("../../src/lib.rs");
     for file in sources.lines().filter_map(|line| line.strip_prefix("pub mod ")) {

@@ -6,7 +6,7 @@ use mbs_workbench::{Settings, model};
 /// Info, equations, sketch, start and 1,000 steps are the same, with held feedback, with
 /// feedback in each stage, with projection and with other schemes, and to a tolerance.
 pub fn same<M: Mechanism<Real = f64>>(name: &str) {
-    let entry = mbs::library().iter().find(|entry| entry.mechanism == name).unwrap();
+    let entry = mbs::library().iter().find(|entry| entry.mechanism == Some(name)).unwrap();
     let text = model::from_text(&entry.text(), entry.defaults()).unwrap_or_else(|error| panic!("{error}"));
     let typed = model::with::<M>(entry.defaults());
     assert_eq!(text.info(), typed.info());

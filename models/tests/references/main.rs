@@ -31,6 +31,7 @@ mod squeezer;
 mod states;
 mod stops;
 mod swings;
+mod texts;
 mod transmissions;
 mod wheels;
 
