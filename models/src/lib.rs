@@ -49,6 +49,8 @@
 //! | [`JansenWalker`] | 0 | an assembly, three times |
 //! | [`Klann`] | 0 | walking, bars as distances |
 //!
+//! More mechanisms are texts, in the folder `texts`, for the command and the gallery alone.
+//!
 //! Each file states a reference result, which `tests/references` holds the
 //! mechanism to. `tests/library` holds all of them to the balance of forces and
 //! power, and to the order of the method over a long run.

@@ -7,6 +7,7 @@ mod contact;
 mod energy;
 mod held;
 mod modes;
+mod play;
 mod rests;
 mod rubbing;
 mod several;

@@ -31,7 +31,7 @@ const HEAD: &str = "\
 
 These are the mechanisms that `mbs list` shows. Each picture leads to a page in which the mechanism runs. There you may
 stop it, drag its bodies, and change its parameters. The pages work without a network. `mbs export page NAME --out FILE.html`
-writes such a page, also for [a mechanism of your own](page.md). Their declarations are in the folder `models/src`, to start
+writes such a page, also for [a mechanism of your own](page.md). Their declarations are in the folders `models/src` and `models/texts`, to start
 from.
 
 ";
