@@ -24,7 +24,7 @@ const UNARY: [Function; 12] = [
     Function::Sign,
 ];
 
-const BINARY: [Function; 6] = [
+const BINARY: [Function; 7] = [
     Function::Atan2,
     Function::Min,
     Function::Max,
