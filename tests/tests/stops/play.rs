@@ -1,6 +1,7 @@
 //! Joints with play: contacts and stops that are written out do the same.
 
 use mbs_live::{Prepared, Text};
+use mbs_runtime::equations::Equations;
 use mbs_runtime::{Adaptive, Dop853, Error, Sampled, System, Tolerances};
 
 /// A block in a guide on a lever that swings, with `joint` between both.

@@ -110,7 +110,7 @@ impl Resolver<'_> {
         let fan = corners.windows(2).map(|pair| pair[0].perpendicular().dot(pair[1]).expr());
         let fan: Vec<_> = fan.filter(|_| is_fan).collect();
         for (turn, to) in turns.into_iter().zip(at).chain(fan.into_iter().zip(&at[1..])) {
-            self.asks_for("turn to the left at a corner", name, turn, to.span, true);
+            self.asks_for("counter-clockwise turn at a corner", name, turn, to.span, true);
         }
     }
 

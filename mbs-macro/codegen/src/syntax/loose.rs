@@ -9,6 +9,7 @@ use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
 use syn::{Error, Result, Token, token};
 
+use super::choices::condition;
 use super::items::stop;
 use super::joints::two_places;
 use super::words::{block, equals, helped, name, property_name};
@@ -153,17 +154,39 @@ impl Loose {
         })))
     }
 
-    /// The gap of a pin in its bore, or those of four corners in their guide.
+    /// The gap of a pin in its bore, or those of four corners in their guide, behind what has to be positive.
     fn stops(&self, example: &str) -> Result<Vec<ItemKind>> {
-        let has_friction = self.properties.iter().find(|(name, _)| name == "friction");
-        match (&self.along, has_friction) {
-            (Some(along), _) => self.corners(along, example),
-            (None, Some((word, _))) => {
-                let message = format!("`{}` takes no `friction` where it hits in no time", self.name);
-                Err(helped(word.span(), message, "give it a `modulus` or a `stiffness`, and a `coefficient`"))
-            }
-            (None, None) => Ok(vec![self.pin()?]),
+        let known: &[&str] = match &self.along {
+            Some(_) => &["length", "height", "restitution", "settle", "friction"],
+            None => &["restitution", "settle"],
+        };
+        if let Some((word, _)) =
+            self.properties.iter().find(|(name, _)| !known.iter().any(|known| name == known))
+        {
+            let message = format!("`{}` hits in no time, and has no `{word}`", self.name);
+            return Err(helped(
+                word.span(),
+                message,
+                "give it a `stiffness` or a `modulus` for a contact that takes time",
+            ));
         }
+        let mut items = vec![self.positive(&self.clearance)?];
+        match &self.along {
+            Some(along) => {
+                for size in ["length", "height"] {
+                    items.push(self.positive(self.size(size, example)?)?);
+                }
+                items.extend(self.corners(along, example)?);
+            }
+            None => items.push(self.pin()?),
+        }
+        Ok(items)
+    }
+
+    fn positive(&self, size: &TokenStream) -> Result<ItemKind> {
+        let condition = |input: ParseStream<'_>| condition(input, "");
+        let condition = condition.parse2(spanned!(self, #size > 0))?;
+        Ok(ItemKind::Require { of: None, condition })
     }
 
     /// (c² − d²)/(2c) of the distance d, which is smooth where d is 0, and c − d where it closes.

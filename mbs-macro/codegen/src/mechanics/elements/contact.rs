@@ -17,6 +17,7 @@ use mbs_symbolic::units::Dimension;
 use super::nearest::{Nearest, Pair, pairs};
 use super::properties::{FORCE, Given, Property, SPEED, Unsaid};
 use super::{Effects, Element, ElementKind, Places};
+use crate::mechanics::Outline;
 
 const LAW: &str = "law";
 const HUNT_CROSSLEY: &str = "hunt_crossley";
@@ -120,6 +121,13 @@ fn refuses(contact: &Element<'_>) -> Option<[&'static str; 2]> {
             "is between outlines that no contact knows",
             "a point or a `circle` touches every outline; corners of a `segment` or a `polygon` touch a `line`, a `bore`, a \
              `segment` or a `polygon`",
+        ]);
+    }
+    let has_circle = contact.outlines.iter().any(|outline| matches!(outline, Outline::Circle { .. }));
+    if !has_circle && pairs.iter().any(Pair::is_sharp) {
+        return Some([
+            "is between sharp corners, which slip past each other's sides",
+            "give one of both outlines a `radius`, larger than they are pressed together: `… to (a, b) radius 1 [mm];`",
         ]);
     }
     if pairs.iter().any(Pair::is_thin) {

@@ -92,6 +92,15 @@ fn corners<'a>(
 }
 
 impl<'a> Pair<'a> {
+    /// True of a point and sharp edges. A corner near the end of an edge would be pushed aside, by the side that is nearer there.
+    pub fn is_sharp(&self) -> bool {
+        let edge = match self.outline {
+            Outline::Segment { radius, .. } | Outline::Polygon { radius, .. } => radius,
+            _ => return false,
+        };
+        self.radius.is_zero() && edge.is_zero()
+    }
+
     /// True if neither of them has a thickness: they touch nowhere.
     pub fn is_thin(&self) -> bool {
         let edge = match self.outline {
