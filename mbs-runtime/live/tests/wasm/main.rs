@@ -215,14 +215,6 @@ fn reduced_states() {
     agree(&text);
 }
 
-/// Stops that rub: their functions are as those of others.
-#[test]
-fn rough_stops() {
-    for (name, text) in rough::rough() {
-        agree(&Text::declaration(name, text));
-    }
-}
-
 /// Every elementary function and kind of table, sines of far angles too; those of the host are here the ones of Rust.
 #[test]
 fn every_function() {
