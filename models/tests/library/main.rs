@@ -8,6 +8,7 @@
 mod balance;
 mod drift;
 mod model;
+mod of_texts;
 mod random;
 mod texts;
 

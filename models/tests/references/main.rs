@@ -31,7 +31,6 @@ mod squeezer;
 mod states;
 mod stops;
 mod swings;
-mod texts;
 mod transmissions;
 mod wheels;
 

@@ -6,7 +6,12 @@ use mbs::library;
 use mbs_runtime::Tolerances;
 use mbs_workbench::{Recording, Settings, model};
 
-use super::near;
+#[track_caller]
+fn near(what: &str, ours: f64, reference: f64, tolerance: f64) {
+    // written so that a NaN fails
+    let is_near = (ours - reference).abs() <= tolerance;
+    assert!(is_near, "{what}: {ours} against {reference}, off by {:e}", ours - reference);
+}
 
 /// A run to a relative tolerance, and an absolute one a thousandth of that.
 fn run(name: &str, parameters: &[(&str, f64)], [end, step, rtol]: [f64; 3]) -> Recording {
