@@ -144,7 +144,7 @@ fn every_pair_of_outlines_conserves_momenta_and_energy() -> Result<(), Error> {
     let rim = "circle rim on a = (0.02 [m], 0.01 [m]) radius 0.1 [m];";
     let bar = "segment rim on a = (-0.1 [m], 0.02 [m]) to (0.12 [m], -0.01 [m]) radius 0.03 [m];";
     let tile = "polygon rim on a = (-0.1 [m], -0.05 [m]) to (0.1 [m], -0.06 [m]) to (0 [m], 0.1 [m]) radius 0.02 [m];";
-    let block = "polygon s on b = (-0.3 [m], -0.1 [m]) to (0.3 [m], -0.1 [m]) to (0.3 [m], 0.08 [m]) to (-0.3 [m], 0.1 [m]);";
+    let block = "polygon s on b = (-0.3 [m], -0.1 [m]) to (0.3 [m], -0.1 [m]) to (0.3 [m], 0.08 [m]) to (-0.3 [m], 0.1 [m]) radius 0.01 [m];";
     let with = |of_a| move |of_b| [of_a, of_b];
     let touched = [
         "circle s on b = (0.05 [m], 0.05 [m]) radius 0.1 [m];",

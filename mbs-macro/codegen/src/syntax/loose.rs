@@ -10,10 +10,9 @@ use syn::parse::{ParseStream, Parser};
 use syn::{Error, Result, Token, token};
 
 use super::choices::condition;
-use super::items::stop;
 use super::joints::two_places;
 use super::words::{block, equals, helped, name, property_name};
-use super::{Attachment, Element, ElementProperty, ItemKind, Load, Vector};
+use super::{Attachment, Element, ElementProperty, ItemKind, Load, Vector, words};
 use crate::mechanics::elements::{ElementKind, LOOSE_PRISMATIC, LOOSE_REVOLUTE};
 
 const CLEARANCE: &str = "clearance";
@@ -107,7 +106,7 @@ fn properties(input: ParseStream<'_>, example: &str) -> Result<Vec<(Ident, Token
         while !content.is_empty() && !content.peek(Token![;]) {
             value.extend([content.parse::<TokenTree>()?]);
         }
-        super::words::semicolon(&content)?;
+        words::semicolon(&content)?;
         all.push((name, value));
     }
     Ok(all)
@@ -247,7 +246,11 @@ impl Loose {
         let others = self.properties.iter().filter(|(name, _)| !is_size(name));
         let others = others.map(|(name, value)| spanned!(self, #name = #value;));
         let slid = slid.map(|slid| spanned!(self, along = #slid;));
-        stop.parse2(spanned!(self, #name: #gap >= 0 { #(#others)* #slid }))
+        let stop = |input: ParseStream<'_>| {
+            let (condition, properties) = (condition(input, "")?, words::properties(input, "")?);
+            Ok(ItemKind::Stop { name, condition, properties })
+        };
+        stop.parse2(spanned!(self, #gap >= 0 { #(#others)* #slid }))
     }
 }
 
