@@ -23,7 +23,7 @@ fn guided(joint: &str) -> String {
 }
 
 fn at(text: &str, t: f64) -> Result<Vec<f64>, Error> {
-    let live = Text::declaration("play.mbs", text).compile().unwrap_or_else(|error| panic!("{error}"));
+    let live = Text::declaration("play.mbs", text).compile().expect("a mechanism");
     let tolerances = Tolerances { rtol: 1e-9, atol: 1e-12, ..Tolerances::default() };
     let built = Adaptive::builder(Prepared::new(&live)).scheme::<Dop853>().tolerances(tolerances).build()?;
     let mut run = Sampled::new(built, t)?;
