@@ -1,4 +1,4 @@
-//! Targets: the forms in which a compiled mechanism is printed. A target sees [`Compiled`]
+//! Targets: the forms in which a compiled mechanism is printed. A target sees [`Compiled`](crate::Compiled)
 //! alone.
 
 mod c;
