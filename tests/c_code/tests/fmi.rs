@@ -25,15 +25,12 @@ const MECHANISMS: [&str; 8] = [
 ];
 
 /// Of which nothing is integrated, and without constraints and parameters; C has no arrays without elements. And one
-/// whose input begins at a declared value. And a block that rubs on a stop.
-const SPARSE: [&str; 4] = [
+/// whose input begins at a declared value.
+const SPARSE: [&str; 3] = [
     "Mechanism { dof = 0; states = reduced; body block (x) { mass = 1 [kg]; }
         drive motor: x = 0.1 [m]*sin(3 [rad/s]*t); start { guess x = 0; } output force [N] = effort(motor); }",
     "Free { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 0; der(x) = 1 [m/s]; } }",
     "Pushed { dof = 1; input push [N] = 3; body block (x) { mass = 1 [kg]; } force f on x = push; start { x = 0; } }",
-    "Rough { dof = 2; gravity = (1, -9.81) [m/s^2]; body block (x, y) { mass = 1 [kg]; }
-        stop floor: y >= 0 [m] { restitution = 0.2; friction = 0.3; along = x; }
-        start { y = 2e-4 [m]; der(x) = 2e-3 [m/s]; der(y) = -0.5 [m/s]; } }",
 ];
 
 const STEP: f64 = 1e-4;
