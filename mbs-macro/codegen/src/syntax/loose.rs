@@ -223,7 +223,7 @@ impl Loose {
         })
     }
 
-    /// Where the first place is, from the second one along the direction of the guide and across it.
+    /// The first place as the second one sees it: along the guide, and across it.
     fn place(&self, along: &Group) -> Result<[TokenStream; 2]> {
         let components = |input: ParseStream<'_>| {
             let x = until_comma(input)?;

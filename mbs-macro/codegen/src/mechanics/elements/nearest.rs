@@ -1,4 +1,4 @@
-//! Where outlines are nearest to each other: circles about points of one, and what they touch of the other.
+//! The places at which outlines are nearest: circles about points of one outline touch the other one.
 
 use mbs_symbolic::{Number, Scalar, Vector};
 
@@ -16,7 +16,7 @@ pub struct Pair<'a> {
     pub outline: Outline<Scalar<'a>>,
 }
 
-/// Where a circle is nearest to an outline.
+/// The place at which a circle is nearest to an outline.
 pub struct Nearest<'a> {
     /// n, from the other outline to the circle.
     pub normal: Vector<Scalar<'a>>,
@@ -174,7 +174,7 @@ impl<'a> Pair<'a> {
         Nearest { normal, distance: height - self.radius - edge, arm }
     }
 
-    /// From the edge beyond which it is farthest, which is the nearest one; outside of its ends, from its corner.
+    /// The edge that the circle is farthest beyond is the nearest one. Outside of its ends, its corner is nearest.
     fn nearest_of_polygon(
         &self,
         d: Vector<Scalar<'a>>,
@@ -231,7 +231,7 @@ impl<'a> Pair<'a> {
 struct Edge<'a> {
     /// Its direction; the inside is on the left.
     along: Vector<Scalar<'a>>,
-    /// How far the place is beyond it, and along it.
+    /// The distance of the place beyond it, and along it.
     height: Scalar<'a>,
     at: Scalar<'a>,
     /// Along it, where it begins and ends.
@@ -246,7 +246,7 @@ impl<'a> Edge<'a> {
         Self { along, height, at: along.dot(place), ends: [from, to].map(|end| along.dot(end)) }
     }
 
-    /// The one beyond which the place is farther: at a corner both are as near.
+    /// The edge that the place is farther beyond. Where both are equal, their common corner is nearest.
     fn farther(self, other: Self) -> Self {
         let is_other = other.height.chooses(self.height).shared();
         let chosen = |one, other| chosen(is_other, other, one).shared();
