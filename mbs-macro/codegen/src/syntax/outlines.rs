@@ -25,7 +25,7 @@ pub enum Outline {
     Segment { to: Vector, radius: Option<Formula> },
     /// `arc rim on wheel = (0, 0) radius 0.3 from -45 [deg] to 45 [deg];`
     Arc { radius: Formula, from: Formula, to: Formula },
-    /// `polygon hull on crate = (0, 0) to (0.2, 0) to (0.2, 0.1) to (0, 0.1);`, round with a `radius`
+    /// `polygon hull on block = (0, 0) to (0.2, 0) to (0.2, 0.1) to (0, 0.1);`, round with a `radius`
     Polygon { to: Vec<Vector>, radius: Option<Formula> },
 }
 
@@ -36,7 +36,7 @@ const LINE: &str = "line floor on ground = (0, 0) along (1, 0);";
 const SLOT: &str = "slot groove on wheel = (0, 0) along (1, 0) width 10.2 [mm];";
 const SEGMENT: &str = "segment edge on door = (0, 0) to (0.8 [m], 0) radius 5 [mm];";
 const ARC: &str = "arc rim on wheel = (0, 0) radius 0.3 [m] from -45 [deg] to 45 [deg];";
-const POLYGON: &str = "polygon hull on crate = (0, 0) to (0.2 [m], 0) to (0.2 [m], 0.1 [m]) to (0, 0.1 [m]);";
+const POLYGON: &str = "polygon hull on block = (0, 0) to (0.2 [m], 0) to (0.2 [m], 0.1 [m]) to (0, 0.1 [m]);";
 
 pub(super) fn point(input: ParseStream<'_>) -> Result<ItemKind> {
     outline(input, POINT, |_| Ok(Outline::Point))
