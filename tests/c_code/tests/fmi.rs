@@ -25,12 +25,15 @@ const MECHANISMS: [&str; 8] = [
 ];
 
 /// Of which nothing is integrated, and without constraints and parameters; C has no arrays without elements. And one
-/// whose input begins at a declared value.
-const SPARSE: [&str; 3] = [
+/// whose input begins at a declared value. And a block that rubs on a stop, which co-simulation alone has.
+const SPARSE: [&str; 4] = [
     "Mechanism { dof = 0; states = reduced; body block (x) { mass = 1 [kg]; }
         drive motor: x = 0.1 [m]*sin(3 [rad/s]*t); start { guess x = 0; } output force [N] = effort(motor); }",
     "Free { dof = 1; body block (x) { mass = 1 [kg]; } start { x = 0; der(x) = 1 [m/s]; } }",
     "Pushed { dof = 1; input push [N] = 3; body block (x) { mass = 1 [kg]; } force f on x = push; start { x = 0; } }",
+    "Rough { dof = 2; gravity = (1, -9.81) [m/s^2]; body block (x, y) { mass = 1 [kg]; }
+        stop floor: y >= 0 [m] { restitution = 0.2; friction = 0.3; along = x; }
+        start { y = 2e-4 [m]; der(x) = 2e-3 [m/s]; der(y) = -0.5 [m/s]; } }",
 ];
 
 const STEP: f64 = 1e-4;
@@ -52,8 +55,10 @@ fn exported(text: &Text, instances: usize) -> TempDir {
     for file in &fmu.sources {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }
-    let main =
-        include_str!("fmi.c").replace("NAME", &fmu.identifier).replace("TURNS", &instances.to_string());
+    let exchanges = fmu.descriptions.iter().any(|(_, description)| description.contains("<ModelExchange"));
+    let kinds = if exchanges { "" } else { "#define CO_SIMULATION_ALONE\n" };
+    let main = kinds.to_owned()
+        + &include_str!("fmi.c").replace("NAME", &fmu.identifier).replace("TURNS", &instances.to_string());
     std::fs::write(folder.path().join("main.c"), main).unwrap();
     std::fs::write(folder.path().join("solver.c"), format!("#include \"{}.c\"\n", fmu.identifier)).unwrap();
     folder

@@ -146,7 +146,7 @@ static int adjoint(
     struct instance *it, const uint32_t *unknowns, size_t unknown_count, const uint32_t *knowns, size_t known_count,
     const double *seed, double *sensitivity)
 {
-    double slope;
+    double slope = 0.0;
     for (size_t at = 0; at < known_count; at++) {
         const double one = 1.0;
         sensitivity[at] = 0.0;
