@@ -174,6 +174,8 @@ impl Resolver<'_> {
         let zero = self.scope.arena.zero();
         let Point { origin, angle, local, .. } = sketch.points[first];
         let local = local.unwrap_or([zero; 2]);
+        // a plate has the corners of a polygon
+        let is_plate = matches!(outline, Outline::Polygon { .. });
         for (kind, path) in self.paths(outline) {
             let mut corners: Vec<usize> = if path.len() == 1 { vec![first] } else { Vec::new() };
             for away in path {
@@ -182,6 +184,9 @@ impl Resolver<'_> {
                 let name = format!("{body}.{name}.{kind}");
                 corners.push(sketch.points.len());
                 sketch.points.push(Point { name, origin, angle, local });
+            }
+            if let Some(of) = sketch.bodies.iter_mut().find(|of| is_plate && *body == of.name) {
+                of.points.extend(corners.iter().skip(1));
             }
             for (&first, &second) in corners.iter().zip(corners.iter().skip(1)) {
                 sketch.joints.push(Link { name: name.to_string(), kind, first, second, ahead: None });

@@ -126,6 +126,12 @@ impl<'a> Maker<'a> {
         self.owner.get(point).copied().flatten()
     }
 
+    /// The body of a point, or of a place of an outline, which is named after its body.
+    fn body_of(&self, point: usize) -> Option<usize> {
+        let body = self.sketch.points.get(point).and_then(|name| name.split('.').next());
+        self.colour_of(point).or_else(|| self.sketch.bodies.iter().position(|it| Some(it.name) == body))
+    }
+
     /// The larger distance that a point gets from where it starts.
     fn travel(&self, point: usize) -> f64 {
         let start = self.picture.place(0, point);
@@ -212,7 +218,12 @@ impl<'a> Maker<'a> {
             }
             ("segment", _) => {
                 self.joined.extend(between);
-                self.shapes.push(Shape::Link { between });
+                match self.body_of(first) {
+                    // the edges of a polygon are those of the plate
+                    Some(_) if between.iter().all(|at| self.colour_of(*at).is_some()) => {}
+                    Some(colour) => self.shapes.push(Shape::Bar { between, colour }),
+                    None => self.shapes.push(Shape::Link { between }),
+                }
             }
             ("line", _) => {
                 self.joined.extend(between);
