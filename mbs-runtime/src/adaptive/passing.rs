@@ -14,8 +14,15 @@ const MOST_PASSED: f64 = 4.0;
 const MOST_PASSAGES: usize = MOST_SWITCHES;
 /// The share of a step below which what lies between two knots does not count with implicit schemes.
 const NARROW: f64 = 1e-6;
-/// Shares of a step at which it is looked into.
-const WITHIN: [f64; 3] = [0.25, 0.5, 0.75];
+/// Shares of a step between which changes of rates are known at first, and that over which rates are taken.
+const RATES: [f64; 3] = [0.0, 0.5, 1.0 - SLOPE];
+const SLOPE: f64 = 1e-6;
+/// A knot is reached within this share of a step,
+const NEAREST: f64 = 1e-6;
+/// and passed within so many of them.
+const BEHIND: f64 = 4.0;
+/// So often a step is looked into.
+const LOOKS: u32 = 64;
 /// Halvings of a step, after which the time of a knot is known.
 const HALVINGS: u32 = 30;
 
@@ -74,17 +81,62 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         pairs.map(|(from, to)| self.surprise(from, to)).fold(0.0, f64::max)
     }
 
-    /// True if one of some values leaves its piece within the step that was tried, and is back at its end. The distance of two
-    /// balls does, if a step leads one through the other.
-    pub(super) fn dips(&mut self, pieces: [f64; MOST_SWITCHES], counts: impl Fn(usize) -> bool) -> bool {
-        WITHIN.into_iter().any(|share| {
-            let there = self.within(share);
-            let Self { dynamics, inputs, all, .. } = self;
-            let values = switches_at((&*dynamics, &*inputs), &there, all);
-            let switches = self.dynamics.equations().switching().iter();
-            let mut known = switches.zip(values).zip(pieces).enumerate();
-            known.any(|(index, ((switch, value), piece))| counts(index) && switch.knots.piece(value) != piece)
-        })
+    /// True if one of some values leaves its piece within the step that was tried, although both ends are on it. So does the
+    /// distance of a ball from a thin plate that a step leads it through. The step is looked through from its start, by shares
+    /// in which no value comes to its next knot by its rate there and the largest change of its rate so far.
+    pub(super) fn runs_through(
+        &mut self,
+        pieces: [f64; MOST_SWITCHES],
+        longest: f64,
+        counts: impl Fn(usize) -> bool,
+    ) -> bool {
+        let switches = self.dynamics.equations().switching();
+        let h = (self.next.t - self.now.t).to_f64();
+        let held = self.held(&self.now, h).max(self.held(&self.next, h)) * h;
+        let [first, middle, last] = RATES.map(|share| self.look(share));
+        let (mut share, mut here, mut bends) = (0.0, first, [0.0; MOST_SWITCHES]);
+        bend(&mut bends, [&first, &middle], RATES[1] - RATES[0]);
+        bend(&mut bends, [&middle, &last], RATES[2] - RATES[1]);
+        for _ in 0..LOOKS {
+            let known = switches.iter().enumerate().filter(|(index, _)| counts(*index));
+            let reaches = known.map(|(index, switch)| {
+                let [value, rate, bend] = [&here[0], &here[1], &bends].map(|of| of[index]);
+                let reach = |rises: bool| {
+                    let way = (switch.knots.ahead(value, rises)? - value).abs();
+                    let rate = if rises { rate } else { -rate };
+                    // of a value that is held rounding decides, and at a knot it is already
+                    (way > 0.0 && rate.abs().max(bend) > held).then(|| reach(way, rate, bend))
+                };
+                reach(true).unwrap_or(f64::INFINITY).min(reach(false).unwrap_or(f64::INFINITY))
+            });
+            let reach = reaches.fold(f64::INFINITY, f64::min);
+            if share + reach >= 1.0 {
+                return false;
+            }
+            // at a knot a look behind it
+            let step = if reach < NEAREST { BEHIND * NEAREST } else { reach.min(longest) };
+            share += step;
+            let there = self.look(share);
+            let mut known = switches.iter().zip(there[0]).zip(pieces).enumerate();
+            if known
+                .any(|(index, ((switch, value), piece))| counts(index) && switch.knots.piece(value) != piece)
+            {
+                return true;
+            }
+            bend(&mut bends, [&here, &there], step);
+            here = there;
+        }
+        false
+    }
+
+    /// The values of all switches at a share of the step, and their rates.
+    fn look(&mut self, share: f64) -> [[f64; MOST_SWITCHES]; 2] {
+        let [here, near] = [share, share + SLOPE].map(|share| self.values_at(share));
+        let mut rates = here;
+        for (rate, near) in rates.iter_mut().zip(near) {
+            *rate = (near - *rate) / SLOPE;
+        }
+        [here, rates]
     }
 
     /// True if the estimate does not know the end of a step. Then the piece behind the last knot is looked at, too.
@@ -110,10 +162,14 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// The value of a switch at a share of the step.
     fn value_at(&mut self, index: usize, share: f64) -> f64 {
+        self.values_at(share).get(index).copied().unwrap_or(f64::NAN)
+    }
+
+    /// The values of all switches there.
+    fn values_at(&mut self, share: f64) -> [f64; MOST_SWITCHES] {
         let there = self.within(share);
         let Self { dynamics, inputs, all, .. } = self;
-        let values = switches_at((&*dynamics, &*inputs), &there, all);
-        values.get(index).copied().unwrap_or(f64::NAN)
+        switches_at((&*dynamics, &*inputs), &there, all)
     }
 
     /// The share of the step at which a value passes a knot.
@@ -146,4 +202,17 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         // where there is no acceleration, the step is not taken
         shares.map(|share| if share.is_nan() { f64::INFINITY } else { share }).fold(0.0, f64::max)
     }
+}
+
+/// Takes the changes of rates between two looks where they are larger than those before.
+fn bend(bends: &mut [f64; MOST_SWITCHES], [from, to]: [&[[f64; MOST_SWITCHES]; 2]; 2], share: f64) {
+    for ((bend, from), to) in bends.iter_mut().zip(from[1]).zip(to[1]) {
+        *bend = bend.max(((to - from) / share).abs());
+    }
+}
+
+/// The first share at which a value with a rate may have gone a way, if its rate grows by `bend`.
+fn reach(way: f64, rate: f64, bend: f64) -> f64 {
+    let root = Real::sqrt(rate * rate + 2.0 * bend * way);
+    if rate > 0.0 { 2.0 * way / (rate + root) } else { (root - rate) / bend }
 }

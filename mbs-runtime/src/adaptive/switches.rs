@@ -26,8 +26,12 @@ const ROUNDINGS: f64 = 64.0;
 const HELD: f64 = 1e-9;
 /// The estimate of the error of a step that passes a switch counts so many times.
 const STRICT: f64 = 100.0;
-/// A step longer than this share of the longest one so far is looked into, where its ends see nothing of a knot.
+/// A step longer than this share of the longest one so far is looked into by these shares at most, where its ends see nothing of
+/// a knot,
 const LONG: f64 = 0.25;
+const LOOK: f64 = 1.0 / 16.0;
+/// and a shorter one by these.
+const SHORT_LOOK: f64 = 0.25;
 /// Steps that grow again after a rejection are forgotten by this factor a step.
 const FORGET: f64 = 0.9;
 
@@ -63,7 +67,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     ) -> Result<(), Error> {
         let mut now = self.now.clone();
         let rates = self.rates(&mut now);
-        let held = self.held(&now);
+        let held = self.held(&now, 0.0);
         let h = (now.t - self.before.t).to_f64();
         let near = if h < SHORT * self.effort.longest { NEAR * h } else { 0.0 };
         let switches = self.dynamics.equations().switching().iter().enumerate();
@@ -92,11 +96,11 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         Ok(())
     }
 
-    /// The rate of a value up to which it is held, but for rounding.
-    fn held(&self, now: &Moment<D::Real, D::States>) -> f64 {
+    /// The rate of a value up to which it is held, but for rounding; in steps that may be as long as one.
+    pub(super) fn held(&self, now: &Moment<D::Real, D::States>, step: f64) -> f64 {
         let [q, v, a] = [&now.q, &now.v, &now.a].map(|x| vectors::largest(x.as_ref()).1.to_f64());
         let rounding = ROUNDINGS * D::Real::EPSILON.to_f64() * q.max(v).max(a);
-        (HELD * v.max(a)).max(rounding / (RATE * self.effort.longest))
+        (HELD * v.max(a)).max(rounding / (RATE * self.effort.longest.max(step)))
     }
 
     /// Reports whether a value that comes to its knot after some time has the opposite rate right behind it, by a jump:
@@ -152,7 +156,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let is_passed = (0..switches.len()).any(passes);
         let is_long = (self.next.t - self.now.t).to_f64() > LONG * self.effort.longest;
         // a value that is back at the end, beside others that are not
-        if is_long && self.dips(pieces, |index| counts(index) && !passes(index)) {
+        let is_back = |index| counts(index) && !passes(index);
+        let longest = if is_long { LOOK } else { SHORT_LOOK };
+        if self.runs_through(pieces, longest, is_back) {
             return self.halved();
         }
         if !is_passed {

@@ -199,3 +199,44 @@ fn every_pair_of_outlines_conserves_momenta_and_energy() -> Result<(), Error> {
     }
     Ok(())
 }
+
+/// Regression: a run to a tolerance led a ball, or a plank, through what is thin beside the way of a step: 18 of 40 balls.
+#[test]
+fn what_is_thin_is_not_passed() -> Result<(), Error> {
+    let ball = "body ball (x, y) { mass = 1 [kg]; } circle outline on ball = (0, 0) radius 5 [mm];";
+    let plank = "body ball (x, y, phi) { mass = 1 [kg]; inertia = 0.03 [kg*m^2]; }
+        polygon outline on ball = (-0.3 [m], -0.02 [m]) to (0.3 [m], -0.02 [m]) to (0.3 [m], 0.02 [m]) to (-0.3 [m], 0.02 [m]) radius 1 [mm];";
+    for number in 0..40 {
+        let share = f64::from(number) / 40.0;
+        let (thickness, height) = (1e-4 * 10.0_f64.powf(2.0 * share), 0.3 + 2.0 * share);
+        let is_plank = number % 4 == 3;
+        let (dof, body) = if is_plank { (3, plank) } else { (2, ball) };
+        let turned = if is_plank { "phi = 0.1 [rad];" } else { "" };
+        let wall = match number % 2 {
+            0 => format!(
+                "polygon wall on ground = (-9 [m], {low} [m]) to (9 [m], {low} [m]) to (9 [m], 0) to (-9 [m], 0);",
+                low = -thickness
+            ),
+            _ => {
+                format!("segment wall on ground = (-9 [m], 0) to (9 [m], 0) radius {} [m];", 0.5 * thickness)
+            }
+        };
+        // on a floor, or thrown against a ceiling
+        let (up, speed) = if number % 8 < 4 { (1.0, 0.0) } else { (-1.0, 10.0) };
+        // a hit dents by a quarter of the thickness
+        let hit = (speed * speed + 2.0 * 9.81 * up * height).sqrt();
+        let stiffness = (4.0 * hit / thickness).powi(2);
+        let text = format!(
+            "Thin {{ dof = {dof}; gravity = (0, -9.81) [m/s^2]; {body} {wall}
+               contact c (ball.outline, ground.wall) {{ stiffness = {stiffness} [N/m]; restitution = 0.5; speed = {hit} [m/s]; }}
+               start {{ y = {} [m]; der(y) = {speed} [m/s]; der(x) = {share} [m/s]; {turned} }} }}",
+            up * height
+        );
+        let rtol = [1e-3, 1e-6, 1e-9][number as usize % 3];
+        let tolerances = Tolerances { rtol, atol: 1e-3 * rtol, max_step: f64::INFINITY, first_step: None };
+        let first = (hit - speed).abs() / 9.81;
+        let [q, _] = at(&text, first + 0.05, tolerances)?;
+        assert!(up * q[1] > 0.0, "{rtol}: {q:?}\n{text}");
+    }
+    Ok(())
+}
