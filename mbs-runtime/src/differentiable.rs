@@ -114,7 +114,7 @@ impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
         Equations::free_reactions(at: At<'_, f64>, inputs: &[f64], a: &mut [f64], multipliers: &mut [f64]) -> f64;
         Equations::contacts(t: f64, q: &[f64], what: &mut dyn FnMut(&[f64]));
         Equations::clock(clock: usize) -> [f64; 2];
-        Equations::transitions(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
+        Equations::transitions(at: At<'_, f64>, inputs: &[f64], reactions: [&[f64]; 2], values: &mut [f64]);
         Equations::sample(at: At<'_, f64>, inputs: &mut [f64], clock: usize);
         Equations::kinetic_energy(at: At<'_, f64>) -> f64;
     }

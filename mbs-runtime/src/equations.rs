@@ -136,8 +136,8 @@ pub trait Equations<T: Real> {
     /// Sets the memories of a clock, which stand behind the inputs; see [`Mechanism::sample`].
     fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize);
 
-    /// Writes the values of transitions; see [`Mechanism::transitions`].
-    fn transitions(&self, _at: At<'_, T>, _inputs: &[T], _values: &mut [T]) {}
+    /// Writes the values of transitions, given q̈ and λ; see [`Mechanism::transitions`].
+    fn transitions(&self, _at: At<'_, T>, _inputs: &[T], _reactions: [&[T]; 2], _values: &mut [T]) {}
 
     /// Kinetic energy ½ vᵀMv in J.
     fn kinetic_energy(&self, at: At<'_, T>) -> T;
@@ -208,8 +208,16 @@ impl<M: Mechanism> Equations<M::Real> for M {
         Mechanism::clock(self, clock)
     }
 
-    fn transitions(&self, at: At<'_, M::Real>, inputs: &[M::Real], values: &mut [M::Real]) {
-        Mechanism::transitions(self, &at.state(), &read(inputs), values);
+    fn transitions(
+        &self,
+        at: At<'_, M::Real>,
+        inputs: &[M::Real],
+        [a, lambda]: [&[M::Real]; 2],
+        values: &mut [M::Real],
+    ) {
+        let growth = M::Real::default();
+        let reactions = Reactions { acceleration: read(a), multipliers: read(lambda), growth };
+        Mechanism::transitions(self, &at.state(), &read(inputs), &reactions, values);
     }
 
     fn sample(&self, at: At<'_, M::Real>, inputs: &mut [M::Real], clock: usize) {

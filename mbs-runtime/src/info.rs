@@ -325,6 +325,11 @@ impl Info {
         self.frictions.len() + self.modes.locks.len() > 0
     }
 
+    /// True if conditions of transitions depend on forces or accelerations.
+    pub(crate) fn sees_forces(&self) -> bool {
+        self.modes.transitions.iter().any(|transition| transition.sees_forces)
+    }
+
     /// True if velocities or memories may jump at the end of a step.
     pub const fn jumps(&self) -> bool {
         self.contacts() + self.modes.transitions.len() > 0

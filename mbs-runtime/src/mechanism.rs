@@ -376,11 +376,13 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// Sets the memories of a clock as they are from a sample at this state on.
     fn sample(&self, _at: &State<Self::Coordinates>, _inputs: &mut Self::Inputs, _clock: usize) {}
 
-    /// Writes the values of [transitions](crate::Modes::transitions), whose sets are samples behind those of the clocks.
+    /// Writes the values of [transitions](crate::Modes::transitions), given q̈ and λ. Their sets are samples behind those of the
+    /// clocks.
     fn transitions(
         &self,
         _at: &State<Self::Coordinates>,
         _inputs: &Self::Inputs,
+        _reactions: &Reactions<Self::Coordinates, Self::Constraints>,
         _values: &mut [Self::Real],
     ) {
     }

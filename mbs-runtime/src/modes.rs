@@ -13,19 +13,23 @@
 //! A transition is a sample where a condition begins to hold. A memory keeps on which side of its condition it was last, so
 //! that also what jumps is seen; and the largest difference of the two sides of the condition so far, of which a small share
 //! is rounding. What stays at its limit holds.
+//!
+//! Conditions may ask for forces and accelerations, which are those of a state: of the one before a jump, and behind it of the
+//! one to which velocities have been led.
 
 use crate::changes::Changes;
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share};
+use crate::declared::DeclaredTransition;
 use crate::equations::{At, Equations};
 use crate::locks::{all_stops, locked, placed};
 use crate::mechanism::growth_limit;
 use crate::pressing::held;
 use crate::rubbing::{Bounds, Hit};
-use crate::sticking::unanswered;
-use crate::{Error, Info, Real, rubbing, vectors};
+use crate::sticking::{measure, unanswered};
+use crate::{Error, Info, Real, rubbing, sticking, vectors};
 
 /// So often transitions follow each other at one moment.
-const IN_SEQUENCE: usize = 16;
+pub(crate) const IN_SEQUENCE: usize = 16;
 /// A mode holds where its constraints are met within this share of the size of the coordinates,
 pub(crate) const CLOSED: f64 = 1e-6;
 /// or within so many steps at the rate with which they close.
@@ -176,45 +180,74 @@ pub(crate) fn close<T: Real>(
     }
 }
 
-/// Notes on which side of its condition every transition is at a start.
-pub(crate) fn look<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &mut [T]) {
-    let values = values(equations, at, inputs);
+/// What conditions are judged with: how far those that hold may be off, and vectors for accelerations and multipliers.
+pub(crate) struct Judging<'a, T> {
+    pub off: f64,
+    pub room: [&'a mut [T]; 2],
+}
+
+/// Notes on which side of its condition every transition is at a start. Those that see forces do not hold yet: no start declares
+/// these.
+pub(crate) fn look<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &mut [T],
+    room: [&mut [T]; 2],
+) {
+    let values = values(equations, at, inputs, room, false);
     for (transition, value) in equations.info().modes.transitions.iter().zip(values) {
-        let side = if transition.is_rising == transition.is_strict { -NONE } else { NONE };
+        let is_below = transition.is_rising == (transition.is_strict || transition.sees_forces);
+        let side = if is_below { -NONE } else { NONE };
         if let Some(to) = inputs.get_mut(transition.memory) {
-            *to = if value.to_f64() == 0.0 { T::from_f64(side) } else { value };
+            *to = if transition.sees_forces || value.to_f64() == 0.0 { T::from_f64(side) } else { value };
         }
     }
 }
 
-/// The transitions whose conditions have begun to hold, and what their memories are from then on; conditions that hold are off by
-/// a share.
+/// The transitions whose conditions have begun to hold, and what their memories are from then on. Those that see forces are
+/// judged where these are those of a state, not of one within a jump.
 pub(crate) fn due<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
-    inputs: &[T],
-    off: f64,
+    inputs: &mut [T],
+    Judging { off, room }: Judging<'_, T>,
+    are_forces_known: bool,
 ) -> (u32, Each<T>) {
-    let (mut due, mut seen) = (0, values(equations, at, inputs));
+    let mut due = 0;
+    let mut seen = values(equations, at, inputs, room, are_forces_known);
     for ((of, transition), value) in equations.info().modes.transitions.iter().enumerate().zip(&mut seen) {
+        let before = inputs.get(transition.memory).copied().unwrap_or_default();
+        if transition.sees_forces && !are_forces_known {
+            *value = before;
+            continue;
+        }
         let side = if transition.is_rising { 1.0 } else { -1.0 };
-        let (before, now) = (inputs.get(transition.memory).map_or(0.0, |seen| seen.to_f64()), value.to_f64());
-        let size = before.abs().max(now.abs());
-        let held = side * before > 0.0;
-        let is_at_limit = transition.holds_near
-            && now.abs() <= share::<T>(ROUNDING) * before.abs()
-            && before.abs() > 2.0 * NONE;
-        let holds = if held {
-            side * now >= -(share::<T>(off) * before.abs())
-        } else {
-            side * now > 0.0 || is_at_limit
+        let (before, now) = (before.to_f64(), value.to_f64());
+        let holds = match side * before > 0.0 {
+            true => stays::<T>(transition, before.abs(), side * now, off),
+            false => begins::<T>(transition, before.abs(), side * now),
         };
         if side * before < 0.0 && holds {
             due |= bit(of);
         }
+        let size = before.abs().max(now.abs());
         *value = T::from_f64(if holds { side * size } else { -side * size });
     }
     (due, seen)
+}
+
+/// True if a condition that holds goes on to: its value is that much beyond its limit, and was at most `largest`.
+fn stays<T: Real>(transition: &DeclaredTransition, largest: f64, beyond: f64, off: f64) -> bool {
+    // where no mode holds that it asks for, there is no force
+    let is_none = transition.sees_forces && transition.is_strict && beyond == 0.0;
+    beyond >= -(share::<T>(off) * largest) && !is_none
+}
+
+/// True if a condition that does not hold begins to. Forces are solved for, and are none within rounding.
+fn begins<T: Real>(transition: &DeclaredTransition, largest: f64, beyond: f64) -> bool {
+    let rounding = share::<T>(ROUNDING) * largest;
+    let is_at_limit = transition.holds_near && beyond.abs() <= rounding && largest > 2.0 * NONE;
+    if transition.sees_forces { beyond > rounding } else { beyond > 0.0 || is_at_limit }
 }
 
 /// Notes that the conditions hold that a run has found. One that begins at its limit stays there within rounding for a while: it
@@ -234,12 +267,14 @@ pub(crate) fn note_found<T: Real>(info: &Info, (found, size): (u32, f64), inputs
 pub(crate) fn margin<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
-    inputs: &[T],
+    (inputs, room): (&mut [T], [&mut [T]; 2]),
     transition: usize,
 ) -> T {
-    let value = values(equations, at, inputs).get(transition).copied().unwrap_or_default();
-    let declared = equations.info().modes.transitions.get(transition);
-    if declared.is_some_and(|declared| declared.is_rising) { -value } else { value }
+    let value = values(equations, at, inputs, room, true).get(transition).copied().unwrap_or_default();
+    let Some(declared) = equations.info().modes.transitions.get(transition) else { return value };
+    let value = if declared.is_rising { -value } else { value };
+    let seen = inputs.get(declared.memory).copied().unwrap_or_default();
+    if declared.sees_forces { value + T::from_f64(share::<T>(ROUNDING)) * seen.abs() } else { value }
 }
 
 /// Notes on which side of its condition every transition is.
@@ -260,12 +295,15 @@ pub(crate) fn pass<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,
     inputs: &mut [T],
-    (mut found, off): (u32, f64),
+    (mut found, are_forces_known): (u32, bool),
+    Judging { off, room: [a, lambda] }: Judging<'_, T>,
 ) -> Result<u32, Error> {
     let info = equations.info();
     let mut all = 0;
-    for _ in 0..=IN_SEQUENCE {
-        let (due, seen) = due(equations, at, inputs, off);
+    for turn in 0..=IN_SEQUENCE {
+        let judging = Judging { off, room: [&mut *a, &mut *lambda] };
+        // behind what the first ones set, forces are known where velocities have followed
+        let (due, seen) = due(equations, at, inputs, judging, are_forces_known && turn == 0);
         let due = due | core::mem::take(&mut found);
         note(info, &seen, inputs);
         if due == 0 {
@@ -276,17 +314,33 @@ pub(crate) fn pass<T: Real>(
             equations.sample(at, inputs, info.sampling.clocks + of);
         }
     }
-    let first = info.modes.transitions.get(all.trailing_zeros() as usize);
-    let condition = first.map_or("", |transition| transition.condition);
-    Err(Error::Endless { t: at.t.to_f64(), condition })
+    Err(endless(info, at.t.to_f64(), all))
 }
 
-/// The value of every transition.
-pub(crate) fn values<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, inputs: &[T]) -> Each<T> {
+/// Conditions of a set follow each other without an end.
+pub(crate) fn endless(info: &Info, t: f64, set: u32) -> Error {
+    let first = info.modes.transitions.get(set.trailing_zeros() as usize);
+    Error::Endless { t, condition: first.map_or("", |transition| transition.condition) }
+}
+
+/// The value of every transition. Where forces are known, those that see them see those of this state; memories stay as they are.
+fn values<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &mut [T],
+    [a, lambda]: [&mut [T]; 2],
+    are_forces_known: bool,
+) -> Each<T> {
+    let info = equations.info();
     let mut values = [T::ZERO; MOST_CONTACTS];
-    let count = equations.info().modes.transitions.len();
-    if let Some(values) = values.get_mut(..count) {
-        equations.transitions(at, inputs, values);
+    let Some(all) = values.get_mut(..info.modes.transitions.len()) else { return values };
+    if are_forces_known && info.sees_forces() {
+        let kept = sticking::remembered_forces(info, inputs);
+        measure(equations, at, inputs, [&mut *a, &mut *lambda]);
+        equations.transitions(at, inputs, [a, lambda], all);
+        sticking::remember_forces(info, inputs, &kept);
+    } else {
+        equations.transitions(at, inputs, [a, lambda], all);
     }
     values
 }

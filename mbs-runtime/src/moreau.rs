@@ -25,13 +25,13 @@ use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, has, number, those};
 use crate::equations::{At, Equations};
 use crate::halting::halt;
 use crate::locks::{all_stops, locked, placed};
-use crate::modes::{self, close, due, engage, pass};
+use crate::modes::{self, Judging, close, due, engage, pass};
 use crate::pressing::held;
 use crate::rubbing::{self, Bounds, Struck};
-use crate::sticking::{Held, Undecided, all_frictions, decide, direction, hold};
+use crate::sticking::{Held, Undecided, all_frictions, decide, direction};
 use crate::striking::{Answer, Ends, Striking, of, zip};
 pub use crate::touching::begin;
-use crate::{Error, Real, vectors};
+use crate::{Error, Real, touching, vectors};
 
 /// Adds half of the impulses of rest over a step of `h` seconds to the velocities at its start, and sets the memories of
 /// frictions that break loose. Gives the stops that push and the frictions that stick.
@@ -76,14 +76,38 @@ pub fn strike<T: Real>(
     inputs: &mut [T],
 ) -> Result<bool, Error> {
     let Changes { still, rows, q: of_q, v: of_v } = changes;
-    let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     // a stop may throw back what a condition has let pass
-    let (found, _) = due(equations, At { t, q, v }, inputs, modes::OFF);
+    let judging = Judging { off: modes::OFF, room: [&mut *of_q, &mut *rows] };
+    let (found, _) = due(equations, At { t, q, v }, inputs, judging, false);
+    let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     let is_struck = strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     let has_halted = halt(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
-    let passes = pass(equations, At { t, q, v }, inputs, (found, modes::OFF))? != 0;
-    if passes {
+    let own = Changes { still, rows, q: of_q, v: of_v };
+    let passes = pass_and_engage(equations, (h, own), found, (t, [q, v]), inputs)?;
+    Ok(has_halted || is_struck || passes)
+}
+
+/// Takes the samples of conditions that have begun to hold, and leads the end of a step to the constraints of the modes that
+/// hold then. True if there were any.
+///
+/// # Errors
+/// [`Error::Apart`], [`Error::Contradiction`], [`Error::Endless`].
+fn pass_and_engage<T: Real>(
+    equations: &dyn Equations<T>,
+    (h, Changes { still, rows, q: of_q, v: of_v }): (T, Changes<'_, T>),
+    mut found: u32,
+    (t, [q, v]): (T, [&mut [T]; 2]),
+    inputs: &mut [T],
+) -> Result<bool, Error> {
+    let mut all = 0;
+    for _ in 0..=modes::IN_SEQUENCE {
+        let judging = Judging { off: modes::OFF, room: [&mut *of_q, &mut *rows] };
+        let passes = pass(equations, At { t, q, v }, inputs, (core::mem::take(&mut found), true), judging)?;
+        all |= passes;
+        if passes == 0 {
+            return Ok(all != 0);
+        }
         // with the velocities of before the way of a step is known, and with those behind where they lead
         for is_first in [true, false] {
             let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
@@ -93,9 +117,17 @@ pub fn strike<T: Real>(
                 close(equations, own, (t, &mut *q, v), inputs);
             }
         }
-        hold(equations, At { t, q, v }, inputs, [of_q, rows]);
+        // what modes have let go may slide, and what they hold does not
+        let (info, resting) = (equations.info(), held(equations, inputs) & all_stops(equations.info()));
+        let still = touching::slide(equations, At { t, q, v }, still, inputs);
+        let undecided = Undecided { resting, still, breaking: 0 };
+        decide(equations, At { t, q, v }, inputs, undecided, [&mut *of_q, &mut *rows])?;
+        // forces have changed, and conditions that see them may begin
+        if !info.sees_forces() {
+            return Ok(true);
+        }
     }
-    Ok(has_halted || is_struck || passes)
+    Err(modes::endless(equations.info(), t.to_f64(), all))
 }
 
 /// The same without friction.

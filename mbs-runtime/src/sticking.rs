@@ -301,18 +301,61 @@ pub fn hold<T: Real>(
     [a, lambda]: [&mut [T]; 2],
 ) {
     let info = equations.info();
+    if held(equations, inputs) & !all_stops(info) == 0 {
+        let_go(info, inputs);
+    } else {
+        measure(equations, at, inputs, [a, lambda]);
+    }
+}
+
+/// The same with the accelerations and multipliers there.
+pub(crate) fn measure<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &mut [T],
+    [a, lambda]: [&mut [T]; 2],
+) {
+    let info = equations.info();
     let holding = held(equations, inputs) & !all_stops(info);
-    for (row, _) in frictions(info) {
-        set(info, inputs, row, (direction(info, inputs, row), T::ZERO));
-    }
-    note_multipliers(info, inputs, 0, &[T::ZERO; MOST_CONTACTS]);
-    if holding == 0 {
-        return;
-    }
+    let_go(info, inputs);
     equations.free_reactions(at, inputs, a, lambda);
-    let (_, forces) = pressed(equations, at, inputs, a, None);
+    let (_, forces) = pressed(equations, at, inputs, a, Some(lambda));
     for (row, _) in frictions(info).filter(|(row, _)| has(holding, *row)) {
         set(info, inputs, row, (0.0, forces.get(row).copied().unwrap_or_default()));
     }
     note_multipliers(info, inputs, holding, &forces);
+}
+
+/// The memories of the forces with which frictions stick and of the multipliers of modes, by their rows.
+fn force_memories(info: &Info) -> impl Iterator<Item = (usize, usize)> {
+    let of_frictions = frictions(info).map(|(row, memory)| (row, memory + 1));
+    of_frictions.chain(info.locks().map(|(row, lock)| (row, lock.held)))
+}
+
+/// What these memories are.
+pub(crate) fn remembered_forces<T: Real>(info: &Info, inputs: &[T]) -> Each<T> {
+    let mut forces = [T::ZERO; MOST_CONTACTS];
+    for (row, memory) in force_memories(info) {
+        if let (Some(to), Some(force)) = (forces.get_mut(row), inputs.get(memory)) {
+            *to = *force;
+        }
+    }
+    forces
+}
+
+/// Sets them.
+pub(crate) fn remember_forces<T: Real>(info: &Info, inputs: &mut [T], forces: &Each<T>) {
+    for (row, memory) in force_memories(info) {
+        if let (Some(to), Some(force)) = (inputs.get_mut(memory), forces.get(row)) {
+            *to = *force;
+        }
+    }
+}
+
+/// Sets the memories of all forces that hold to 0.
+fn let_go<T: Real>(info: &Info, inputs: &mut [T]) {
+    for (row, _) in frictions(info) {
+        set(info, inputs, row, (direction(info, inputs, row), T::ZERO));
+    }
+    note_multipliers(info, inputs, 0, &[T::ZERO; MOST_CONTACTS]);
 }

@@ -28,10 +28,10 @@ pub fn begin<T: Real>(
 ) -> Result<(), Error> {
     let info = equations.info();
     let count = info.stops.len();
-    look(equations, at, inputs);
+    look(equations, at, inputs, [&mut *changes.q, &mut *changes.rows]);
     let locked = locked(info, inputs);
     let still = slide(equations, at, changes.still, inputs);
-    equations.free_reactions(at, inputs, changes.q, changes.rows);
+    equations.free_reactions(at, inputs, &mut *changes.q, &mut *changes.rows);
     let gaps = Gaps::of(equations, at, changes.q);
     let size = BEHIND * (LEAST_SIZE + vectors::largest(info.of_bodies(at.q)).1.to_f64());
     let thrown = rebounds(&restitutions(equations), &gaps.rate);
@@ -53,14 +53,20 @@ pub fn begin<T: Real>(
         }))
     });
     let undecided = Undecided { resting: settled.transpose()?.unwrap_or(0), still, breaking: 0 };
-    let Held { forces, .. } = decide(equations, at, inputs, undecided, [changes.q, changes.rows])?;
+    let Held { forces, .. } =
+        decide(equations, at, inputs, undecided, [&mut *changes.q, &mut *changes.rows])?;
     let held = those(count, |stop| number(&forces, stop) > 0.0);
     note(equations, held, &[T::ZERO; MOST_CONTACTS], inputs);
     Ok(())
 }
 
 /// Sets the directions of the frictions that move; those that do not.
-fn slide<T: Real>(equations: &dyn Equations<T>, at: At<'_, T>, still: &[T], inputs: &mut [T]) -> u32 {
+pub(crate) fn slide<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    still: &[T],
+    inputs: &mut [T],
+) -> u32 {
     let info = equations.info();
     let rates = Gaps::of(equations, at, still).rate;
     let energy = equations.kinetic_energy(at).to_f64().max(0.0);

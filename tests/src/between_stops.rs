@@ -58,6 +58,26 @@ pub fn switching(number: u64, text: &str) -> String {
     text.trim_end().trim_end_matches('}').to_owned() + &modes + "}\n"
 }
 
+/// The same with modes that are left where they hold with more than a force, and a memory that counts jolts. Two more outputs per
+/// mode are whether it holds, and by which share it does so with more.
+pub fn letting_go(number: u64, text: &str) -> String {
+    let mut random = Random::new(number ^ 0xa5a5);
+    let mut whole = |from: i64, to: i64| from + random.below((to - from + 1) as usize) as i64;
+    let text = switching(number, text);
+    let mut conditions = format!(
+        "    memory jolts [1] = 0;\n    when abs(der(der(y1))) > {} [m/s^2] {{ set jolts = jolts + 1; }}\n",
+        whole(1, 30)
+    );
+    for mode in (0..3).filter(|mode| text.contains(&format!("mode m{mode} "))) {
+        let most = whole(1, 80);
+        conditions += &format!(
+            "    when abs(lambda(c{mode})) > {most} [N] {{ leave m{mode}; }}\n    output holds{mode} = m{mode};\n    \
+             output over{mode} = max(abs(lambda(c{mode}))/({most} [N]) - 1, 0);\n"
+        );
+    }
+    text.trim_end().trim_end_matches('}').to_owned() + &conditions + "}\n"
+}
+
 /// A random mechanism: masses on springs, hung in joints of their own, between stops, some of which say the same or are
 /// reached at once. All start at 0, before every stop or at it.
 pub fn random(number: u64) -> (String, usize) {

@@ -212,7 +212,7 @@ functions! {
     /// The values that every clock sets its memories to, one clock after the other.
     Samples = "samples"(Time, Positions, Velocities, Inputs) -> [result: Samples], [Counted, Sampled];
     /// The values whose change of sign is that of a transition.
-    Transitions = "transitions"(Time, Positions, Velocities, Inputs) -> [result: Transitions], [Sampled];
+    Transitions = "transitions"(Time, Positions, Velocities, Inputs, Reactions) -> [result: Transitions], [Sampled];
     /// The values that the conditions of the parameters judge.
     Conditions = "conditions"() -> [result: Conditions], [Whole];
     /// The declared start, before guesses are corrected. Returns its time.

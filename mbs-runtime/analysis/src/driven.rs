@@ -236,7 +236,7 @@ impl<D: Dynamics> Equations<D::Real> for Driven<D> {
         gaps(at: At<'_, D::Real>, acceleration: &[D::Real], gaps: &mut [D::Real]);
         contacts(t: D::Real, q: &[D::Real], what: &mut dyn FnMut(&[D::Real]));
         clock(clock: usize) -> [D::Real; 2];
-        transitions(at: At<'_, D::Real>, inputs: &[D::Real], values: &mut [D::Real]);
+        transitions(at: At<'_, D::Real>, inputs: &[D::Real], reactions: [&[D::Real]; 2], values: &mut [D::Real]);
         sample(at: At<'_, D::Real>, inputs: &mut [D::Real], clock: usize);
     }
 }

@@ -222,8 +222,8 @@ impl<T: Real> Equations<T> for Resting<'_, T> {
         self.free.clock(clock)
     }
 
-    fn transitions(&self, at: At<'_, T>, inputs: &[T], values: &mut [T]) {
-        self.free.transitions(at, inputs, values);
+    fn transitions(&self, at: At<'_, T>, inputs: &[T], reactions: [&[T]; 2], values: &mut [T]) {
+        self.free.transitions(at, inputs, reactions, values);
     }
 
     fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize) {

@@ -162,8 +162,10 @@ impl<T: Real> Equations<T> for Live<T> {
         times.as_chunks().0.get(clock).copied().unwrap_or([T::from_f64(f64::NAN); 2])
     }
 
-    fn transitions(&self, at: At<'_, T>, inputs: &[T], values: &mut [T]) {
-        self.call(FunctionId::Transitions, &Arguments { inputs: single(inputs), ..state(at) }, [values]);
+    fn transitions(&self, at: At<'_, T>, inputs: &[T], [a, lambda]: [&[T]; 2], values: &mut [T]) {
+        let [acceleration, multipliers] = [a, lambda].map(single);
+        let given = Arguments { inputs: single(inputs), acceleration, multipliers, ..state(at) };
+        self.call(FunctionId::Transitions, &given, [values]);
     }
 
     fn sample(&self, at: At<'_, T>, inputs: &mut [T], clock: usize) {

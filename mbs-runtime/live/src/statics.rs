@@ -123,9 +123,16 @@ fn modes(compiled: &Compiled) -> Modes {
         DeclaredLock { name, mode: it.mode, held: it.held, is_rate: it.is_rate, formula }
     };
     let transition = |it: &compiled::Transition| {
-        let &compiled::Transition { text: ref condition, is_rising, is_strict, holds_near, memory } = it;
+        let &compiled::Transition {
+            text: ref condition,
+            is_rising,
+            is_strict,
+            holds_near,
+            sees_forces,
+            memory,
+        } = it;
         let condition = text(condition);
-        DeclaredTransition { condition, is_rising, is_strict, holds_near, memory }
+        DeclaredTransition { condition, is_rising, is_strict, holds_near, sees_forces, memory }
     };
     Modes {
         modes: leak(compiled.modes.iter().map(mode)),

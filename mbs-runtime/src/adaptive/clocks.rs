@@ -30,7 +30,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         // what lies behind was computed with the memories of before
         self.inputs_mut();
-        self.with_memories(|equations, at, inputs| sample_at(equations, at, inputs));
+        self.with_memories(|equations, at, inputs, _| sample_at(equations, at, inputs));
         self.sampled = Some(self.now.t);
     }
 

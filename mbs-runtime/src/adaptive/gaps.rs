@@ -41,6 +41,8 @@ pub(super) struct Stopping {
     pub is_too_long: bool,
     /// The stops that are rested on because they were not left, until they push.
     pub kept: u32,
+    /// When conditions began to hold last, and how often in close sequence.
+    pub passed: (f64, u32),
 }
 
 impl Stopping {
@@ -57,6 +59,7 @@ impl Stopping {
             effort: Effort::NONE,
             is_too_long: false,
             kept: 0,
+            passed: (f64::NEG_INFINITY, 0),
         }
     }
 }
@@ -86,7 +89,10 @@ pub(super) fn value_of_transition<D: Dynamics>(
     transition: usize,
 ) -> D::Real {
     let mut inputs = dynamics.inputs_at(at.t, inputs);
-    dynamics.with_inputs(&mut inputs, |inputs| modes::margin(dynamics.equations(), at, inputs, transition))
+    let (mut a, mut lambda) = (dynamics.declared_start().1, dynamics.no_feedback());
+    dynamics.with_inputs(&mut inputs, |inputs| {
+        modes::margin(dynamics.equations(), at, (inputs, [a.as_mut(), lambda.as_mut()]), transition)
+    })
 }
 
 /// The set of what a run watches by itself: stops, frictions, and behind all contacts transitions.

@@ -6,7 +6,7 @@ use super::margins::margins;
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, those};
 use crate::equations::At;
 use crate::locks::{all_stops, locked, placed};
-use crate::modes::{self, are_met};
+use crate::modes::{self, Judging, are_met};
 use crate::pressing::held;
 use crate::rubbing::{self, Bounds, Hit};
 use crate::sticking::{Held, Undecided, all_frictions, decide, direction, frictions, set, unanswered};
@@ -91,7 +91,9 @@ impl<D: Dynamics> Jump<'_, D> {
             let least = CLOSED * size * number(&slopes, stop);
             !has(held, stop) && number(&gaps.gap, stop) <= least && number(&gaps.rate, stop) <= 0.0
         });
-        let (due, _) = modes::due(equations, at, inputs, off);
+        let mut lambda = dynamics.no_feedback();
+        let judging = Judging { off, room: [a.as_mut(), lambda.as_mut()] };
+        let (due, _) = modes::due(equations, at, inputs, judging, true);
         [pulls, pushes, closed, entered | due << MOST_CONTACTS]
     }
 

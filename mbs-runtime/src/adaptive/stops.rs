@@ -11,10 +11,11 @@ use super::{Adaptive, AdaptiveScheme, Dynamics};
 use crate::contact::{MOST_CONTACTS, bit, has, number, those};
 use crate::equations::{At, Equations};
 use crate::locks::placed;
+use crate::modes::{self, Judging};
 use crate::pressing::held;
 use crate::rubbing::all_rubbing;
 use crate::sticking::{all_frictions, direction, frictions, set};
-use crate::{Error, Real, modes};
+use crate::{Error, Real};
 
 /// A start is behind a stop by more than this share of the size of the coordinates.
 const BEHIND: f64 = 1e-9;
@@ -24,6 +25,10 @@ const FLIGHTS: f64 = 2.0;
 const SHORTER: f64 = 0.1;
 /// unless it is as short already beside the longest one.
 const SHORT: f64 = 1e-4;
+/// Conditions begin to hold too often where this share of the longest step is between them,
+const OFTEN: f64 = 1e-6;
+/// so many times in sequence.
+const MOST_OFTEN: u32 = 1000;
 /// A run ends where so many steps in sequence do not leave a stop.
 const MOST_LOOKS: u8 = 8;
 
@@ -86,8 +91,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             return self.jump_at(reached);
         }
         if !self.dynamics.equations().info().modes.transitions.is_empty() {
-            self.with_memories(|equations, at, inputs| {
-                let (_, seen) = modes::due(equations, at, inputs, off);
+            self.with_memories(|equations, at, inputs, room| {
+                let (_, seen) = modes::due(equations, at, inputs, Judging { off, room }, true);
                 modes::note(equations.info(), &seen, inputs);
             });
         }
@@ -112,7 +117,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             return Ok(());
         }
         let (t, stops) = (self.now.t.to_f64(), self.dynamics.equations().info().stops);
-        self.with_memories(|equations, at, inputs| modes::look(equations, at, inputs));
+        self.with_memories(|equations, at, inputs, room| modes::look(equations, at, inputs, room));
         let size = self.with_jump(|jump| jump.size());
         self.stopping.size = self.stopping.size.max(size);
         let size = BEHIND * self.stopping.size;
@@ -136,7 +141,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         });
         // frictions stick, and modes hold
         let may_hold = self.dynamics.equations().info().contacts() > stops.len();
-        if touched == 0 && !may_hold { Ok(()) } else { self.jump_at(touched) }
+        if touched == 0 && !may_hold { Ok(()) } else { self.jump_once(touched, false) }
     }
 
     /// Goes back to where the last step began if that was too long to see what gaps do in it; true if it does.
@@ -243,31 +248,71 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Does something that sets memories in the present state.
     pub(super) fn with_memories<R>(
         &mut self,
-        what: impl FnOnce(&dyn Equations<D::Real>, At<'_, D::Real>, &mut [D::Real]) -> R,
+        what: impl FnOnce(&dyn Equations<D::Real>, At<'_, D::Real>, &mut [D::Real], [&mut [D::Real]; 2]) -> R,
     ) -> R {
         let Self { dynamics, inputs, now, all, .. } = self;
         dynamics.complete(now.t, &now.q, &now.v, all);
         let [q, v] = all;
         let at = At { t: now.t, q: q.as_ref(), v: v.as_ref() };
         let sampling = dynamics.equations().info().sampling;
+        let (mut a, mut lambda) = (dynamics.declared_start().1, dynamics.no_feedback());
         let mut present = dynamics.inputs_at(now.t, inputs);
         dynamics.with_inputs(&mut present, |present| {
-            let result = what(dynamics.equations(), at, present);
+            let result = what(dynamics.equations(), at, present, [a.as_mut(), lambda.as_mut()]);
             dynamics.with_inputs(inputs, |own| sampling.set_memories(own, present));
             result
         })
     }
 
-    /// The jump at stops that are reached: those whose gap has closed, and those that pull.
-    fn jump_at(&mut self, reached: u32) -> Result<(), Error> {
+    /// The jump at stops that are reached: those whose gap has closed, and those that pull; and those that conditions ask for
+    /// by the forces behind it.
+    fn jump_at(&mut self, mut reached: u32) -> Result<(), Error> {
+        let off = self.stopping.off;
+        for _ in 0..=modes::IN_SEQUENCE {
+            self.jump_once(reached, true)?;
+            if !self.dynamics.equations().info().sees_forces() {
+                return Ok(());
+            }
+            let (due, _) = self.with_memories(|equations, at, inputs, room| {
+                modes::due(equations, at, inputs, Judging { off, room }, true)
+            });
+            if due == 0 {
+                return Ok(());
+            }
+            reached = due << MOST_CONTACTS;
+        }
+        let (t, transitions) = (self.now.t.to_f64(), reached >> MOST_CONTACTS);
+        Err(modes::endless(self.dynamics.equations().info(), t, transitions))
+    }
+
+    /// Tells of the transitions that were passed without being found.
+    ///
+    /// # Errors
+    /// [`Error::Endless`] where they follow each other too often.
+    fn note_passed(&mut self, passed: u32, found: u32) -> Result<(), Error> {
+        if passed == 0 {
+            return Ok(());
+        }
+        self.happened.due |= watched_of((passed & !found) << MOST_CONTACTS);
+        let (t, longest, (last, count)) = (self.now.t.to_f64(), self.effort.longest, self.stopping.passed);
+        let count = if t - last < OFTEN * longest { count + 1 } else { 0 };
+        self.stopping.passed = (t, count);
+        let info = self.dynamics.equations().info();
+        if count > MOST_OFTEN { Err(modes::endless(info, t, passed)) } else { Ok(()) }
+    }
+
+    /// One of them. At a start forces are not known before it.
+    fn jump_once(&mut self, reached: u32, are_forces_known: bool) -> Result<(), Error> {
         // what lies behind was computed with the memories of before
         self.inputs_mut();
         let (found, Stopping { off, size, .. }) = (reached >> MOST_CONTACTS, self.stopping);
-        self.with_memories(|equations, at, inputs| {
-            modes::pass(equations, at, inputs, (found, off))?;
+        let passed = self.with_memories(|equations, at, inputs, room| {
+            let passed =
+                modes::pass(equations, at, inputs, (found, are_forces_known), Judging { off, room })?;
             modes::note_found(equations.info(), (found, size), inputs);
-            Ok(())
+            Ok(passed)
         })?;
+        self.note_passed(passed, found)?;
         let (longest, mut stopping) = (self.effort.longest, self.stopping);
         let found = self.with_jump(|jump| {
             let held = held(jump.dynamics.equations(), jump.inputs);

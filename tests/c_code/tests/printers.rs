@@ -134,42 +134,58 @@ fn random_mechanisms() {
 /// Between stops, on which they land and rest.
 #[test]
 fn random_mechanisms_between_stops() {
+    compare_random("stops", |number| between_stops::random(number).0);
+}
+
+/// Random mechanisms of a kind.
+fn compare_random(kind: &str, declaration: impl Fn(u64) -> String) {
     let Some(&compiler) = compilers().first() else { return };
     for number in 0..32 / STRIDE as u64 {
-        let text = Text::declaration(format!("stops {number}"), between_stops::random(number).0);
-        assert!(compare(&format!("stops {number}"), &text, 1e-3, compiler), "{number} starts");
+        let name = format!("{kind} {number}");
+        let text = Text::declaration(&name, declaration(number));
+        assert!(compare(&name, &text, 1e-3, compiler), "{name} starts");
     }
 }
 
 /// The same with friction that sticks.
 #[test]
 fn random_mechanisms_that_stick() {
-    let Some(&compiler) = compilers().first() else { return };
-    for number in 0..32 / STRIDE as u64 {
-        let text = Text::declaration(format!("sticks {number}"), between_stops::rubbing(number));
-        assert!(compare(&format!("sticks {number}"), &text, 1e-3, compiler), "{number} starts");
-    }
+    compare_random("sticks", between_stops::rubbing);
 }
 
 /// The same with modes that are entered and left.
 #[test]
 fn random_mechanisms_with_modes() {
+    compare_random("modes", |number| between_stops::switching(number, &between_stops::rubbing(number)));
+}
+
+/// The same with modes that are left where they hold with too much.
+#[test]
+fn random_mechanisms_that_let_go() {
+    compare_random("forces", |number| between_stops::letting_go(number, &between_stops::rubbing(number)));
+}
+
+/// Conditions on forces without modes.
+#[test]
+fn conditions_on_forces() {
     let Some(&compiler) = compilers().first() else { return };
-    for number in 0..32 / STRIDE as u64 {
-        let rubbing = between_stops::rubbing(number);
-        let text = Text::declaration(format!("modes {number}"), between_stops::switching(number, &rubbing));
-        assert!(compare(&format!("modes {number}"), &text, 1e-3, compiler), "{number} starts");
-    }
+    let text = "Hanging { dof = 1; gravity = (0, -10) [m/s^2];
+        body bob (x, y, phi) { mass = 2 [kg]; inertia = 0.5 [kg*m^2]; } point top on bob = (0, 0.5 [m]);
+        revolute pin (bob.top, ground);
+        memory times [1] = 0; memory side [1] = 1;
+        when reaction(pin) > 20 [N] { set times = times + 1; }
+        when der(der(phi)) < 0 { set side = -1; }
+        when der(der(phi)) > 0 { set side = 1; }
+        torque push on bob = side*0.5 [N*m];
+        start { guess x = 0; y = -0.5 [m]; phi = 0; der(phi) = 2 [rad/s]; }
+        output times = times; }";
+    assert!(compare("forces", &Text::declaration("forces", text), 1e-3, compiler));
 }
 
 /// Blocks and rods, thrown on what rubs.
 #[test]
 fn random_mechanisms_on_rough_stops() {
-    let Some(&compiler) = compilers().first() else { return };
-    for number in 0..32 / STRIDE as u64 {
-        let text = Text::declaration(format!("thrown {number}"), thrown::random(number).0);
-        assert!(compare(&format!("thrown {number}"), &text, 1e-3, compiler), "{number} starts");
-    }
+    compare_random("thrown", |number| thrown::random(number).0);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 mod bristles;
+mod by_forces;
 mod contact;
 mod energy;
 mod held;

@@ -126,9 +126,10 @@ impl From<&model::Mode> for Mode {
 
 impl From<&model::Transition> for Transition {
     fn from(transition: &model::Transition) -> Self {
-        let model::Transition { text, is_rising, is_strict, holds_near, memory, .. } = transition;
-        let text = text.clone();
-        Self { text, is_rising: *is_rising, is_strict: *is_strict, holds_near: *holds_near, memory: *memory }
+        let model::Transition { text, is_rising, is_strict, holds_near, sees_forces, memory, .. } =
+            transition;
+        let (text, holds_near, sees_forces) = (text.clone(), *holds_near, *sees_forces);
+        Self { text, is_rising: *is_rising, is_strict: *is_strict, holds_near, sees_forces, memory: *memory }
     }
 }
 

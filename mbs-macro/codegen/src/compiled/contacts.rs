@@ -64,6 +64,8 @@ pub struct Transition {
     pub is_strict: bool,
     /// True if it holds within rounding of 0: unless it is strict and of inputs alone, which jump.
     pub holds_near: bool,
+    /// True if its value depends on forces or accelerations, which a run solves for.
+    pub sees_forces: bool,
     /// The place among the inputs of the memory of the sign that the value had last.
     pub memory: usize,
 }
@@ -98,6 +100,11 @@ impl Compiled {
     pub fn rubbing_rows(&self) -> impl Iterator<Item = [usize; 2]> {
         let rows = (self.stops.len()..).zip(&self.frictions);
         rows.filter_map(|(row, friction)| Some([row, friction.stop?]))
+    }
+
+    /// True if conditions of transitions depend on forces or accelerations.
+    pub fn sees_forces(&self) -> bool {
+        self.transitions.iter().any(|transition| transition.sees_forces)
     }
 
     /// True if velocities or memories may jump at the end of a step.

@@ -241,7 +241,7 @@ impl Scope<'_> {
             )
             .help(match known.position {
                 Some(_) => place.rule(),
-                None => "a run finds the forces of a mode behind all others: ask for them in an `output`",
+                None => "a run finds the forces of a mode behind all others: ask for them in an `output` or a `when`",
             }));
         }
         if known.is_broken {

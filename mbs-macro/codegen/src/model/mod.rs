@@ -359,6 +359,8 @@ pub struct Transition {
     pub is_strict: bool,
     /// True if it holds within rounding of 0: unless it is strict and of inputs alone, which jump.
     pub holds_near: bool,
+    /// True if its value depends on forces or accelerations, which a run solves for.
+    pub sees_forces: bool,
     /// The place among the inputs of the memory of the sign that the value had last.
     pub memory: usize,
     /// The condition as it was written.

@@ -144,7 +144,7 @@ impl Resolver<'_> {
         let sets = self.sets(&when.sets);
         let condition = &when.condition;
         let [left, right] = [&condition.left, &condition.right]
-            .map(|side| self.scope.formula(side, Place::Event, &mut self.errors));
+            .map(|side| self.scope.formula(side, Place::Anywhere, &mut self.errors));
         let (Some(left), Some(right)) = (left, right) else { return };
         if let (Some(a), Some(b)) = (left.dimension, right.dimension)
             && a != b
@@ -158,7 +158,8 @@ impl Resolver<'_> {
         let mut refuse =
             |message: &str, help: &str| self.errors.push(Diagnostic::new(when.keyword, message).help(help));
         if self.scope.arena.stage(value) != Stage::Variable {
-            let help = "write it in positions, velocities, inputs or time, as in `when x < 0 [m] { … }`";
+            let help =
+                "write it in positions, velocities, forces, inputs or time, as in `when x < 0 [m] { … }`";
             return refuse("this never begins to hold: nothing that changes is left in it", help);
         }
         if when.sets.is_empty() {
@@ -175,11 +176,25 @@ impl Resolver<'_> {
         let is_strict = matches!(condition.comparison, Comparison::Greater | Comparison::Less);
         let text = condition.text.clone();
         let symbols = self.scope.arena.symbols_in(value);
-        let jumps = symbols
-            .iter()
-            .all(|&symbol| matches!(self.scope.meaning(symbol), Meaning::Input(_) | Meaning::Parameter(_)));
-        let holds_near = !(is_strict && jumps);
-        self.transitions.push(Transition { value, is_rising, is_strict, holds_near, memory, text, sets });
+        let mut meanings = symbols.iter().map(|&symbol| self.scope.meaning(symbol));
+        let sees_forces = meanings.clone().any(|meaning| self.is_of_forces(meaning));
+        let jumps = meanings.all(|meaning| matches!(meaning, Meaning::Input(_) | Meaning::Parameter(_)));
+        let holds_near = !(is_strict && jumps || sees_forces);
+        let transition =
+            Transition { value, is_rising, is_strict, holds_near, sees_forces, memory, text, sets };
+        self.transitions.push(transition);
+    }
+
+    /// True of what a run solves for: accelerations, multipliers, and the forces with which frictions and modes hold.
+    fn is_of_forces(&self, meaning: Meaning) -> bool {
+        match meaning {
+            Meaning::Acceleration(_) | Meaning::Multiplier(_) => true,
+            Meaning::Input(memory) => {
+                self.locks.iter().any(|lock| lock.held == memory)
+                    || self.frictions.iter().any(|friction| friction.memory + 1 == memory)
+            }
+            _ => false,
+        }
     }
 
     /// Refuses modes that are never entered, and what does not go with modes.

@@ -150,7 +150,6 @@ impl<'a> Resolver<'a> {
             ItemKind::State { name, value, .. } => self.resolve_state(name, value.as_ref()),
             ItemKind::Particle { name, at, properties } => self.resolve_particle(name, at, properties),
             ItemKind::Every(every) => self.resolve_every(every),
-            ItemKind::When(when) => self.resolve_when(when),
             ItemKind::Mode { name, value: Some(value), .. } => self.check_mode(name, value.span),
             ItemKind::Set(set) => self.set_outside(set),
             ItemKind::Start { entries, .. } => entries.iter().for_each(|entry| self.resolve_start(entry)),
@@ -158,8 +157,11 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Outputs and events come last: they may ask for everything.
+    /// Outputs, events and conditions come last: they may ask for everything.
     pub(super) fn resolve_measurement(&mut self, item: &Item) {
+        if let ItemKind::When(when) = &item.kind {
+            self.resolve_when(when);
+        }
         if let ItemKind::Event { name, left, equals, right, crossing } = &item.kind {
             self.resolve_event((name, &item.doc), [left, right], *equals, *crossing);
         }

@@ -56,7 +56,9 @@ fn runs_at_stops_have_the_bits_of_live_ones() {
     }
     let [_, smooth, rubbing] = RUN_SCRIPTS;
     let modes = |number| between_stops::switching(number, &between_stops::rubbing(number));
-    let smooth = (0..4).map(|number| (format!("modes {number}"), modes(number), smooth));
+    let forces = |number| between_stops::letting_go(number, &between_stops::rubbing(number));
+    let forces = (0..4).map(|number| (format!("forces {number}"), forces(number), smooth));
+    let smooth = (0..4).map(|number| (format!("modes {number}"), modes(number), smooth)).chain(forces);
     let thrown = (0..8).map(|number| (format!("thrown {number}"), thrown::random(number).0, rubbing));
     let rough = rough::rough().map(|(name, text)| (name.to_owned(), text, rubbing));
     for (name, text, script) in smooth.chain(thrown).chain(rough) {

@@ -75,13 +75,24 @@ const STICKING: [&str; 2] = [include_str!("text/sticking.c"), include_str!("text
 const STOPS: [&str; 3] =
     [include_str!("text/modes.c"), include_str!("text/striking.c"), include_str!("text/stops.c")];
 
-/// A text with its lines behind `RUBS` where a stop rubs, and with those behind `SMOOTH` where none does.
+/// A text with its lines behind `RUBS` where a stop rubs, and with those behind `SMOOTH` where none does; and likewise behind
+/// `SEES` where conditions depend on forces, and behind `BLIND` where none does.
 fn at_stops(compiled: &Compiled, text: &str) -> String {
-    let words = ["SMOOTH", "RUBS"];
-    let [left, kept] = if compiled.rubbing().next().is_some() { words } else { [words[1], words[0]] };
-    let lines = text.split_inclusive('\n').filter(|line| !line.starts_with(left));
-    let plain = |line: &str| line.strip_prefix(kept).map(|it| it.strip_prefix(' ').unwrap_or(it).to_owned());
-    lines.map(|line| plain(line).unwrap_or_else(|| line.to_owned())).collect()
+    let rubs = compiled.rubbing().next().is_some();
+    let words = [("RUBS", "SMOOTH", rubs), ("SEES", "BLIND", compiled.sees_forces())];
+    let plain = |line: &str| {
+        for (is, is_not, holds) in words {
+            let [kept, left] = if holds { [is, is_not] } else { [is_not, is] };
+            if let Some(rest) = line.strip_prefix(kept) {
+                return Some(rest.strip_prefix(' ').unwrap_or(rest).to_owned());
+            }
+            if line.starts_with(left) {
+                return None;
+            }
+        }
+        Some(line.to_owned())
+    };
+    text.split_inclusive('\n').filter_map(plain).collect()
 }
 
 /// The functions of jumps at the end of a step: of velocities at stops and where modes are entered, of memories by transitions.
@@ -96,12 +107,12 @@ fn jumps(compiled: &Compiled) -> String {
         false => include_str!("text/transitions.c"),
     };
     let due = if compiled.transitions.is_empty() { "" } else { include_str!("text/due.c") };
-    let steps = match compiled.contacts() {
-        0 => include_str!("text/stepped_transitions.c").to_owned(),
-        _ => due.to_owned() + &at_stops(compiled, &STOPS.concat()),
+    let measure = if compiled.sees_forces() { include_str!("text/measure.c") } else { "" };
+    let text = match compiled.contacts() {
+        0 => [ROUNDING, samples, measure, transitions, include_str!("text/stepped_transitions.c")].concat(),
+        _ => [samples, transitions, due].concat() + &STOPS.concat(),
     };
-    let rounding = if compiled.contacts() == 0 { ROUNDING } else { "" };
-    [rounding, samples, transitions, &steps].concat()
+    at_stops(compiled, &text)
 }
 
 /// The functions that start and step a run. Clocks and stops have their own around them.
@@ -238,9 +249,9 @@ fn tables(target: &Target<'_>) -> String {
     if !compiled.transitions.is_empty() {
         let sign = |is_positive| if is_positive { 1 } else { -1 };
         let side = |it: &Transition| {
-            let holds_near = u8::from(it.holds_near);
+            let [holds_near, sees_forces] = [it.holds_near, it.sees_forces].map(u8::from);
             format!(
-                "{{{}, {}, {}, {holds_near}}}",
+                "{{{}, {}, {}, {holds_near}, {sees_forces}}}",
                 it.memory,
                 sign(it.is_rising),
                 sign(it.is_rising != it.is_strict)
@@ -248,8 +259,9 @@ fn tables(target: &Target<'_>) -> String {
         };
         let sides = compiled.transitions.iter().map(side).collect();
         let declaration = "/* The memory of every transition, the sign with which it holds, that of 0 at the start, and whether \
-                           it holds within rounding of 0. */\nstatic const int NAME_sides[][4]";
-        add(declaration, sides, "{0, 0, 0, 0}");
+                           it holds within rounding of 0, and whether it sees forces. */\n\
+                           static const int NAME_sides[][5]";
+        add(declaration, sides, "{0, 0, 0, 0, 0}");
     }
     let lengths = compiled.coordinates.iter().map(|it| length(it.dimension)).collect();
     add(

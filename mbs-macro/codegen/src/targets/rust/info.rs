@@ -117,10 +117,11 @@ fn modes(compiled: &Compiled, runtime: &TokenStream) -> TokenStream {
         }
     });
     let transitions = compiled.transitions.iter().map(|it| {
-        let Transition { text, is_rising, is_strict, holds_near, memory } = it;
+        let Transition { text, is_rising, is_strict, holds_near, sees_forces, memory } = it;
         let memory = Literal::usize_unsuffixed(*memory);
         quote!(#runtime::DeclaredTransition {
-            condition: #text, is_rising: #is_rising, is_strict: #is_strict, holds_near: #holds_near, memory: #memory
+            condition: #text, is_rising: #is_rising, is_strict: #is_strict, holds_near: #holds_near,
+            sees_forces: #sees_forces, memory: #memory
         })
     });
     quote! {

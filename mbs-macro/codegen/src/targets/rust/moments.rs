@@ -114,11 +114,12 @@ fn transitions(compiled: &Compiled, names: &Names) -> TokenStream {
     if compiled.transitions.is_empty() {
         return TokenStream::new();
     }
-    let (state, inputs) = (&names.state, &names.inputs.of_t);
+    let Names { state, reactions, .. } = names;
+    let inputs = &names.inputs.of_t;
     let body = body(compiled, names, FunctionId::Transitions, &Access::of_state());
     let (statements, values) = (&body.statements, body.array(0..compiled.transitions.len()));
     quote! {
-        fn transitions(&self, at: &#state, inputs: &#inputs, values: &mut [T]) {
+        fn transitions(&self, at: &#state, inputs: &#inputs, reactions: &#reactions, values: &mut [T]) {
             #statements
             for (to, from) in values.iter_mut().zip(#values) {
                 *to = from;

@@ -74,9 +74,12 @@ pub fn tables(compiled: &Compiled) -> String {
 
 /// The memory of a transition, the sign with which it holds, that of 0 at the start, and whether it holds within
 /// rounding of 0.
-fn transition(Transition { is_rising, is_strict, holds_near, memory, .. }: &Transition) -> String {
+fn transition(
+    Transition { is_rising, is_strict, holds_near, sees_forces, memory, .. }: &Transition,
+) -> String {
     let sign = |is_positive| if is_positive { 1 } else { -1 };
-    format!("[{memory},{},{},{holds_near}]", sign(*is_rising), sign(is_rising != is_strict))
+    let signs = [sign(*is_rising), sign(is_rising != is_strict)];
+    format!("[{memory},{},{},{holds_near},{sees_forces}]", signs[0], signs[1])
 }
 
 fn quantity(quantity: &Quantity, declared: Option<f64>) -> String {

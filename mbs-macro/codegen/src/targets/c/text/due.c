@@ -1,6 +1,6 @@
-static void NAME_find_due(const struct NAME_run *run, int *due)
+static void NAME_find_due(struct NAME_run *run, int *due)
 {
     real seen[CAPS_TRANSITIONS] = {0};
-    NAME_find_seen(run, due, seen);
+    NAME_find_seen(run, 0, due, seen);
 }
 

@@ -140,16 +140,31 @@ static void NAME_close(struct NAME_run *run)
 /* What conditions change that have begun to hold at the end of a step. */
 static int NAME_pass_and_engage(struct NAME_run *run, const int *known)
 {
-    int passes = 0, code = NAME_pass(run, known, &passes);
-    if (code != CAPS_OK || !passes) {
-        return code;
-    }
-    code = NAME_engage(run);
-    if (code == CAPS_OK) {
-        NAME_close(run);
+    const int none[16] = {0};
+    for (int turn = 0; turn <= 16; turn++) {
+        int passes = 0, code = NAME_pass(run, turn == 0 ? known : none, &passes);
+        if (code != CAPS_OK || !passes) {
+            return code;
+        }
         code = NAME_engage(run);
+        if (code == CAPS_OK) {
+            NAME_close(run);
+            code = NAME_engage(run);
+        }
+        /* what modes have let go may slide, and what they hold does not */
+        int held[CAPS_ROWS], resting[CAPS_ROWS], still[CAPS_ROWS] = {0};
+        real forces[CAPS_ROWS] = {0};
+        NAME_find_held(run, held);
+        for (int row = 0; row < CAPS_ROWS; row++) {
+            resting[row] = row < CAPS_STOPS && held[row];
+        }
+        NAME_slide(run, still);
+        code = code == CAPS_OK ? NAME_decide(run, resting, still, forces) : code;
+SEES         /* forces have changed, and conditions that see them may begin */
+SEES         if (code != CAPS_OK) {
+SEES             return code;
+SEES         }
+BLIND         return code;
     }
-    NAME_hold(run);
-    return code;
+    return CAPS_ENDLESS;
 }
-

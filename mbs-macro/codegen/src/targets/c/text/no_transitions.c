@@ -3,7 +3,7 @@ static void NAME_look(struct NAME_run *run)
     (void)run;
 }
 
-static void NAME_find_due(const struct NAME_run *run, int *due)
+static void NAME_find_due(struct NAME_run *run, int *due)
 {
     (void)run;
     (void)due;

@@ -202,36 +202,55 @@ SMOOTH     return NAME_unanswered(run, still);
 RUBS     return NAME_unanswered(run, free);
 }
 
-/* Sets the memories of the forces with which frictions stick and modes hold. */
-static void NAME_hold(struct NAME_run *run)
+/* Sets the memories of all forces that hold to 0. */
+static void NAME_let_go(struct NAME_run *run)
 {
-    const struct NAME_state *const at = &run->state;
-    const struct NAME_constraints no_feedback = {0};
-    struct NAME_reactions reactions = {0};
-    real forces[CAPS_ROWS] = {0};
-    int held[CAPS_ROWS], is_held = 0;
+    const real forces[CAPS_ROWS] = {0};
     const int none[CAPS_ROWS] = {0};
-    NAME_find_held(run, held);
     for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         NAME_set_friction(run, row, NAME_direction(run, row), 0);
     }
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
-        is_held = is_held || held[row];
-    }
     NAME_note_multipliers(run, none, forces);
+}
+
+/* Sets the memories of the forces with which frictions stick and modes hold; gives the accelerations and multipliers there. */
+static void NAME_measure(struct NAME_run *run, struct NAME_reactions *reactions)
+{
+    const struct NAME_state *const at = &run->state;
+    const struct NAME_constraints no_feedback = {0};
+    real forces[CAPS_ROWS] = {0};
+    int held[CAPS_ROWS];
+    const int is_held = NAME_find_held(run, held);
+    NAME_let_go(run);
+    NAME_compute_reactions(
+        run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions->acceleration,
+        &reactions->multipliers);
     if (!is_held) {
         return;
     }
-    NAME_compute_reactions(
-        run->mechanism, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &reactions.acceleration,
-        &reactions.multipliers);
-    NAME_press_with(run, held, &reactions, forces);
+    NAME_press_with(run, held, reactions, forces);
     for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         if (held[row]) {
             NAME_set_friction(run, row, 0, forces[row]);
         }
     }
     NAME_note_multipliers(run, held, forces);
+}
+
+/* The same without these. */
+static void NAME_hold(struct NAME_run *run)
+{
+    struct NAME_reactions reactions = {0};
+    int held[CAPS_ROWS], is_held = 0;
+    NAME_find_held(run, held);
+    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+        is_held = is_held || held[row];
+    }
+    if (is_held) {
+        NAME_measure(run, &reactions);
+    } else {
+        NAME_let_go(run);
+    }
 }
 
 /* Sets the directions of the frictions that move at a start; marks those that do not. */

@@ -86,30 +86,51 @@ class Modes extends Sticking {
     }
   }
 
-  transitionValues() {
-    const m = this.mechanism;
-    if (this.tables.transitions.length) m.call("transitions", this.t, this.q, this.v, this.inputs, m.transitions);
+  // True if conditions depend on forces or accelerations.
+  seesForces() {
+    return this.tables.transitions.some(([, , , , sees]) => sees);
+  }
+
+  // The value of every transition. Where forces are known, those that see them see those of this state; memories stay as they are.
+  transitionValues(areForcesKnown) {
+    const m = this.mechanism, inputs = this.inputs.slice();
+    if (!this.tables.transitions.length) return [];
+    if (areForcesKnown && this.seesForces()) this.measure();
+    m.call("transitions", this.t, this.q, this.v, this.inputs, m.reactions, m.transitions);
+    this.inputs.set(inputs);
     return Array.from(m.transitions);
   }
 
-  // Notes on which side of its condition every transition is at a start. One that is 0 is on that of its comparison.
+  // Notes on which side of its condition every transition is at a start. Those that see forces do not hold yet.
   look() {
-    this.transitionValues().forEach((value, of) => {
-      const [memory, , sign] = this.tables.transitions[of];
-      this.inputs[memory] = value === 0 ? sign * 1e-30 : value;
+    this.transitionValues(false).forEach((value, of) => {
+      const [memory, side, sign, , sees] = this.tables.transitions[of];
+      // one that is 0 is on the side that its comparison says
+      if (sees) this.inputs[memory] = -side * 1e-30;
+      else this.inputs[memory] = value === 0 ? sign * 1e-30 : value;
     });
   }
 
-  // The transitions whose conditions have begun to hold, and what their memories are from then on.
-  seen() {
+  // The transitions whose conditions have begun to hold, and what their memories are from then on. Those that see forces are
+  // judged where these are known.
+  seen(areForcesKnown) {
     const due = [], seen = [];
-    this.transitionValues().forEach((now, of) => {
-      const [memory, side, , holdsNear] = this.tables.transitions[of], before = this.inputs[memory];
-      const isAtLimit = holdsNear && Math.abs(now) <= 1e-12 * Math.abs(before) && Math.abs(before) > 2e-30;
+    this.transitionValues(areForcesKnown).forEach((now, of) => {
+      const [memory, side, sign, holdsNear, sees] = this.tables.transitions[of], before = this.inputs[memory];
+      const largest = Math.abs(before), beyond = side * now, rounding = 1e-12 * largest;
+      if (sees && !areForcesKnown) {
+        due[of] = false;
+        seen[of] = before;
+        return;
+      }
+      const isAtLimit = holdsNear && Math.abs(beyond) <= rounding && largest > 2e-30;
+      // where no mode holds that it asks for, there is no force
+      const isNone = sees && side !== sign && beyond === 0;
       // what a mode keeps at its limit is off by the error of a step
-      const hasHeld = side * before > 0;
-      const holds = hasHeld ? side * now >= -(1e-6 * Math.abs(before)) : side * now > 0 || isAtLimit;
-      const size = Math.max(Math.abs(before), Math.abs(now));
+      const stays = beyond >= -(1e-6 * largest) && !isNone;
+      // forces are solved for, and are none within rounding
+      const begins = sees ? beyond > rounding : beyond > 0 || isAtLimit;
+      const holds = side * before > 0 ? stays : begins, size = Math.max(largest, Math.abs(now));
       due[of] = side * before < 0 && holds;
       seen[of] = holds ? side * size : -side * size;
     });
@@ -120,7 +141,8 @@ class Modes extends Sticking {
   // those whose conditions do by that; true if there was one.
   pass(known) {
     for (let turn = 0; turn <= 16; turn++) {
-      const { due, seen } = this.seen();
+      // behind what the first ones set, forces are known where velocities have followed
+      const { due, seen } = this.seen(turn === 0);
       seen.forEach((it, of) => {
         this.inputs[this.tables.transitions[of][0]] = it;
         due[of] = due[of] || (turn === 0 && known[of]);
@@ -133,10 +155,17 @@ class Modes extends Sticking {
 
   // What conditions change that have begun to hold at the end of a step.
   passAndEngage(known) {
-    if (!this.pass(known) || !this.tables.stops.length) return;
-    this.engage();
-    this.close();
-    this.engage();
-    this.hold();
+    for (let turn = 0; turn <= 16; turn++) {
+      if (!this.pass(turn === 0 ? known : []) || !this.tables.stops.length) return;
+      this.engage();
+      this.close();
+      this.engage();
+      // what modes have let go may slide, and what they hold does not
+      const resting = this.held().map((it, row) => it && this.isStop(row));
+      this.decide(resting, this.slide());
+      // forces have changed, and conditions that see them may begin
+      if (!this.seesForces()) return;
+    }
+    this.fail("ENDLESS");
   }
 }

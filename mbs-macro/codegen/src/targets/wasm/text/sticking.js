@@ -109,13 +109,24 @@ class Sticking extends AtContacts {
 
   // Sets the memories of the forces with which frictions stick.
   hold() {
-    const m = this.mechanism, n = this.q.length, held = this.held(), rows = this.frictions();
-    rows.forEach((row) => this.setFriction(row, this.direction(row), 0));
+    if (this.held().some((it, row) => it && !this.isStop(row))) this.measure();
+    else this.letGo();
+  }
+
+  // Sets the memories of all forces that hold to 0.
+  letGo() {
+    this.frictions().forEach((row) => this.setFriction(row, this.direction(row), 0));
     this.noteMultipliers(this.each(() => false), []);
-    if (!held.some((it, row) => it && !this.isStop(row))) return;
+  }
+
+  // The same as `hold`, with the accelerations and multipliers there.
+  measure() {
+    const m = this.mechanism, n = this.q.length, held = this.held();
+    this.letGo();
     m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
+    if (!held.includes(true)) return;
     const { forces } = this.pressWith(held, m.reactions);
-    rows.filter((row) => held[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
+    this.frictions().filter((row) => held[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
     this.noteMultipliers(held, forces);
   }
 

@@ -343,7 +343,7 @@ class AtStops extends Modes {
       const hasContacts = this.tables.stops.length > 0, pushed = hasContacts ? this.push() : [];
       step();
       // a stop may throw back what a condition has let pass
-      const { due } = this.seen();
+      const { due } = this.seen(false);
       if (hasContacts) {
         this.strike(pushed, { t, q, v });
         this.halt(pushed, { t, q, v });
