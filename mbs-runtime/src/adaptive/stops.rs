@@ -280,6 +280,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 return Ok(());
             }
             reached = due << MOST_CONTACTS;
+            self.happened.due |= watched_of(reached);
         }
         let (t, transitions) = (self.now.t.to_f64(), reached >> MOST_CONTACTS);
         Err(modes::endless(self.dynamics.equations().info(), t, transitions))
