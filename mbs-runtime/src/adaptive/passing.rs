@@ -22,7 +22,7 @@ const NEAREST: f64 = 1e-6;
 /// and passed within so many of them.
 const BEHIND: f64 = 4.0;
 /// So often a step is looked into.
-const LOOKS: u32 = 64;
+const LOOKS: u32 = 128;
 /// Halvings of a step, after which the time of a knot is known.
 const HALVINGS: u32 = 30;
 
@@ -81,12 +81,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         pairs.map(|(from, to)| self.surprise(from, to)).fold(0.0, f64::max)
     }
 
-    /// True if one of some values leaves its piece within the step that was tried, although both ends are on it. So does the
-    /// distance of a ball from a thin plate that a step leads it through. The step is looked through from its start, by shares
-    /// in which no value comes to its next knot by its rate there and the largest change of its rate so far.
+    /// True if one of some values leaves the piece of its end within the step that was tried. So does the distance of a ball
+    /// from a thin plate that a step leads it through. The step is looked through from its start, by shares in which no value
+    /// comes to its next knot by its rate there and the largest change of its rate so far.
     pub(super) fn runs_through(
         &mut self,
-        pieces: [f64; MOST_SWITCHES],
+        [starts, ends]: [[f64; MOST_SWITCHES]; 2],
         longest: f64,
         counts: impl Fn(usize) -> bool,
     ) -> bool {
@@ -94,13 +94,18 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let h = (self.next.t - self.now.t).to_f64();
         let held = self.held(&self.now, h).max(self.held(&self.next, h)) * h;
         let [first, middle, last] = RATES.map(|share| self.look(share));
+        let mut arrived: [bool; MOST_SWITCHES] =
+            core::array::from_fn(|index| starts.get(index) == ends.get(index));
         let (mut share, mut here, mut bends) = (0.0, first, [0.0; MOST_SWITCHES]);
         bend(&mut bends, [&first, &middle], RATES[1] - RATES[0]);
         bend(&mut bends, [&middle, &last], RATES[2] - RATES[1]);
         for _ in 0..LOOKS {
-            let known = switches.iter().enumerate().filter(|(index, _)| counts(*index));
-            let reaches = known.map(|(index, switch)| {
-                let [value, rate, bend] = [&here[0], &here[1], &bends].map(|of| of[index]);
+            let [values, rates] = here;
+            let known =
+                switches.iter().zip(values).zip(rates.into_iter().zip(bends)).zip(arrived).enumerate();
+            // what has not come to the piece of its end may pass knots
+            let known = known.filter(|(index, (_, arrived))| *arrived && counts(*index));
+            let reaches = known.map(|(_, (((switch, value), (rate, bend)), _))| {
                 let reach = |rises: bool| {
                     let way = (switch.knots.ahead(value, rises)? - value).abs();
                     let rate = if rises { rate } else { -rate };
@@ -110,18 +115,22 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 reach(true).unwrap_or(f64::INFINITY).min(reach(false).unwrap_or(f64::INFINITY))
             });
             let reach = reaches.fold(f64::INFINITY, f64::min);
-            if share + reach >= 1.0 {
-                return false;
-            }
             // at a knot a look behind it
             let step = if reach < NEAREST { BEHIND * NEAREST } else { reach.min(longest) };
+            let is_waiting = arrived.iter().take(switches.len()).any(|arrived| !arrived);
+            if share + if is_waiting { step } else { reach } >= 1.0 {
+                return false;
+            }
             share += step;
             let there = self.look(share);
-            let mut known = switches.iter().zip(there[0]).zip(pieces).enumerate();
-            if known
-                .any(|(index, ((switch, value), piece))| counts(index) && switch.knots.piece(value) != piece)
+            for (index, ((switch, value), (end, arrived))) in
+                switches.iter().zip(there[0]).zip(ends.iter().zip(&mut arrived)).enumerate()
             {
-                return true;
+                let is_at_end = switch.knots.piece(value) == *end;
+                if counts(index) && *arrived && !is_at_end {
+                    return true;
+                }
+                *arrived |= is_at_end;
             }
             bend(&mut bends, [&here, &there], step);
             here = there;

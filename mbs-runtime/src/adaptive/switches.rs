@@ -29,7 +29,7 @@ const STRICT: f64 = 100.0;
 /// A step longer than this share of the longest one so far is looked into by these shares at most, where its ends see nothing of
 /// a knot,
 const LONG: f64 = 0.25;
-const LOOK: f64 = 1.0 / 16.0;
+const LOOK: f64 = 1.0 / 32.0;
 /// and a shorter one by these.
 const SHORT_LOOK: f64 = 0.25;
 /// Steps that grow again after a rejection are forgotten by this factor a step.
@@ -155,10 +155,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let passes = |index: usize| counts(index) && ends.get(index) != pieces.get(index);
         let is_passed = (0..switches.len()).any(passes);
         let is_long = (self.next.t - self.now.t).to_f64() > LONG * self.effort.longest;
-        // a value that is back at the end, beside others that are not
-        let is_back = |index| counts(index) && !passes(index);
         let longest = if is_long { LOOK } else { SHORT_LOOK };
-        if self.runs_through(pieces, longest, is_back) {
+        if self.runs_through([pieces, ends], longest, counts) {
             return self.halved();
         }
         if !is_passed {
