@@ -140,7 +140,7 @@ fn random_mechanisms_between_stops() {
 /// Random mechanisms of a kind.
 fn compare_random(kind: &str, declaration: impl Fn(u64) -> String) {
     let Some(&compiler) = compilers().first() else { return };
-    for number in 0..32 / STRIDE as u64 {
+    for number in 0..16 / STRIDE as u64 {
         let name = format!("{kind} {number}");
         let text = Text::declaration(&name, declaration(number));
         assert!(compare(&name, &text, 1e-3, compiler), "{name} starts");

@@ -163,7 +163,7 @@ fn looked_at(
 /// never hold with more. To a tolerance and with constant steps.
 #[test]
 fn random_modes_take_energy_and_hold() {
-    let count = if EXHAUSTIVE { 1000 } else { 60 };
+    let count = if EXHAUSTIVE { 300 } else { 60 };
     let mut held = 0;
     for number in 0..count {
         let (text, stops) = between_stops::random(number);
