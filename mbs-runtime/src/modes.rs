@@ -180,7 +180,7 @@ pub(crate) fn close<T: Real>(
     }
 }
 
-/// What conditions are judged with: how far those that hold may be off, and vectors for accelerations and multipliers.
+/// The share by which conditions that hold may be off, and vectors for the accelerations and multipliers that they see.
 pub(crate) struct Judging<'a, T> {
     pub off: f64,
     pub room: [&'a mut [T]; 2],
@@ -205,7 +205,7 @@ pub(crate) fn look<T: Real>(
 }
 
 /// The transitions whose conditions have begun to hold, and what their memories are from then on. Those that see forces are
-/// judged where these are those of a state, not of one within a jump.
+/// judged in a state, and not within a jump, where velocities have not followed yet.
 pub(crate) fn due<T: Real>(
     equations: &dyn Equations<T>,
     at: At<'_, T>,

@@ -332,7 +332,7 @@ fn force_memories(info: &Info) -> impl Iterator<Item = (usize, usize)> {
     of_frictions.chain(info.locks().map(|(row, lock)| (row, lock.held)))
 }
 
-/// What these memories are.
+/// The values of these memories.
 pub(crate) fn remembered_forces<T: Real>(info: &Info, inputs: &[T]) -> Each<T> {
     let mut forces = [T::ZERO; MOST_CONTACTS];
     for (row, memory) in force_memories(info) {
@@ -343,7 +343,7 @@ pub(crate) fn remembered_forces<T: Real>(info: &Info, inputs: &[T]) -> Each<T> {
     forces
 }
 
-/// Sets them.
+/// Sets these memories.
 pub(crate) fn remember_forces<T: Real>(info: &Info, inputs: &mut [T], forces: &Each<T>) {
     for (row, memory) in force_memories(info) {
         if let (Some(to), Some(force)) = (inputs.get_mut(memory), forces.get(row)) {

@@ -41,7 +41,7 @@ pub(super) struct Stopping {
     pub is_too_long: bool,
     /// The stops that are rested on because they were not left, until they push.
     pub kept: u32,
-    /// When conditions began to hold last, and how often in close sequence.
+    /// The time at which conditions began to hold last, and how often they did in close sequence.
     pub passed: (f64, u32),
 }
 

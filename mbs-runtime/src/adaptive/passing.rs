@@ -21,7 +21,7 @@ const SLOPE: f64 = 1e-6;
 const NEAREST: f64 = 1e-6;
 /// and passed within so many of them.
 const BEHIND: f64 = 4.0;
-/// So often a step is looked into.
+/// The most looks into a step.
 const LOOKS: u32 = 128;
 /// Halvings of a step, after which the time of a knot is known.
 const HALVINGS: u32 = 30;

@@ -280,7 +280,7 @@ fn friction_behind_a_mode_slides() {
     }
 }
 
-/// What enters and leaves at one moment without an end is told.
+/// Conditions that enter and leave at one moment without an end are told.
 #[test]
 fn what_has_no_end_is_told() {
     let text = "Endless { dof = 1; body block (x) { mass = 2 [kg]; } force pull on x = 40 [N];
