@@ -4,9 +4,6 @@
 
 #![allow(clippy::expect_used, reason = "a test says by panicking what is wrong")]
 
-#[macro_use]
-mod common;
-
 use mbs_analysis::{By, Curve, Error, Instant, Prescription, Time, inverse};
 use mbs_runtime::equations::Described;
 use mbs_runtime::{Components, Dual, Real, Simulation, mechanism};

@@ -3,9 +3,6 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
-#[macro_use]
-mod common;
-
 use mbs_analysis::nalgebra::DVector;
 use mbs_analysis::{Error, Linearization, OperatingPoint, Ports, Search, equilibrium, linearize, of_type};
 use mbs_runtime::equations::{At, Described};

@@ -4,9 +4,6 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
-#[macro_use]
-mod common;
-
 use mbs_analysis::{Along, Error, Position, Travel, travel};
 use mbs_runtime::equations::{At, Described};
 use mbs_runtime::mechanism;
