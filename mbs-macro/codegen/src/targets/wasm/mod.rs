@@ -11,7 +11,7 @@
 //! loops. Tangents, inverse functions, exponentials and powers are those of the host, which need not agree
 //! with Rust's in the last place.
 //!
-//! An interpreter of WebAssembly holds modules of the library to that (`tests/wasm` of `mbs-live`).
+//! An interpreter of WebAssembly holds modules of the library to that (`tests/tests/live/wasm`).
 
 mod helpers;
 mod loops;

@@ -23,7 +23,7 @@ fn as_rustc_shows(problem: &Problem) -> Vec<String> {
 /// A file with several mechanisms, and what rustc shows of it.
 #[test]
 fn messages_and_places_are_those_of_the_macro() {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/compile_fail/ui");
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("compile_fail/ui");
     let text = fs::read_to_string(cases.join("places.rs")).unwrap();
     let mut found = Vec::new();
     for name in text.lines().filter_map(|line| line.trim().strip_prefix("pub ")?.split(' ').next()) {

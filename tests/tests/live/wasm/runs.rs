@@ -5,8 +5,7 @@ use std::process::Command;
 
 use mbs_live::{RUN_SCRIPTS, Run, Text};
 use mbs_runtime::System;
-
-use crate::{between_stops, rough, thrown};
+use tests::{between_stops, rough, thrown};
 
 const STEP: f64 = 1e-3;
 const STEPS: usize = 1000;

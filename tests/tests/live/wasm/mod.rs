@@ -2,17 +2,8 @@
 //! mechanism does, to the last bit: functions at random states, and steps.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
-#[path = "../../../../tests/src/between_stops.rs"]
-mod between_stops;
 mod host;
-#[allow(dead_code, reason = "other tests draw more from it")]
-#[path = "../../../../tests/src/random.rs"]
-mod random;
-#[path = "../../../../tests/src/rough.rs"]
-mod rough;
 mod runs;
-#[path = "../../../../tests/src/thrown.rs"]
-mod thrown;
 
 use std::fs;
 use std::path::Path;
@@ -37,7 +28,7 @@ fn same(what: &str, found: &[f64], expected: &[f64]) {
 }
 
 fn model(file: &str) -> Text {
-    Text::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src").join(file)).unwrap()
+    Text::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src").join(file)).unwrap()
 }
 
 fn agree(text: &Text) {
@@ -191,7 +182,7 @@ fn chains_in_loops() {
     for file in
         ["jansen_walker.rs", "planetary_gear.rs", "v_engine.rs", "excavator.rs", "andrews_squeezer.rs"]
     {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src").join(file);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src").join(file);
         let text = fs::read_to_string(path).unwrap().replacen("dof = ", "limit unrolled = 0; dof = ", 1);
         agree(&Text::rust(file, text));
     }
@@ -199,7 +190,7 @@ fn chains_in_loops() {
 
 /// A chain of the library with so many links.
 fn chain(file: &str, links: usize) -> Text {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src").join(file);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src").join(file);
     let text = fs::read_to_string(path).unwrap().replace("$(#[$($attribute)*])*", "");
     Text::rust(file, text.replace("$Name", "Chain").replace("$n", &links.to_string())).named("Chain")
 }
@@ -207,7 +198,7 @@ fn chain(file: &str, links: usize) -> Text {
 /// Coordinates that constraints give are not among the states of a step.
 #[test]
 fn reduced_states() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src/slider_crank_free.rs");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src/slider_crank_free.rs");
     let text = fs::read_to_string(path).unwrap().replacen("dof = 1;", "dof = 1; states = reduced;", 1);
     let text = Text::rust("reduced.rs", text);
     let info = text.compile().unwrap().declared_info();

@@ -8,7 +8,7 @@ use mbs_live::Text;
 use mbs_runtime::equations::Equations;
 
 fn models() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/src")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src")
 }
 
 /// The mechanisms that a file declares by itself, and their names.
@@ -61,7 +61,7 @@ fn one_of_several_is_asked_for_by_its_name() {
 /// the compiler.
 #[test]
 fn declarations_of_the_corpus() {
-    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/corpus");
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
     let mut compiled = 0;
     for entry in fs::read_dir(corpus).unwrap() {
         let path = entry.unwrap().path();
