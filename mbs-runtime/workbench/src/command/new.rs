@@ -139,33 +139,13 @@ fn dependency(relative: &str) -> String {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "live"))]
 #[path = "../../template/lib.rs.in"]
 mod template;
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Shape;
-    use crate::{Picture, Settings, model};
-
-    /// The first picture of a newcomer showed a mechanism without points.
-    #[test]
-    fn the_mechanism_of_a_new_crate_is_worth_looking_at() {
-        let stepper = model::of::<template::Stepper>();
-        let recording = stepper.simulate(&Settings::default(), &mut |_, _| ()).unwrap();
-        assert_eq!((recording.ended, recording.doubts.len()), (None, 0));
-        let picture = Picture::of(&stepper.motion(&Settings::default(), &recording).unwrap());
-        let count = |is: fn(&Shape) -> bool| picture.shapes.iter().filter(|shape| is(shape)).count();
-        assert_eq!(count(|shape| matches!(shape, Shape::Bar { .. })), 3);
-        assert_eq!(count(|shape| matches!(shape, Shape::Ground { .. })), 2);
-        assert!(count(|shape| matches!(shape, Shape::Pin { .. })) >= 4);
-        assert!(!picture.traced.is_empty() && picture.times.len() > 100);
-        // Straight for half a turn: for a quarter before and after half a second.
-        let height = recording.column("foot_y").unwrap();
-        assert_eq!(height.unit, "mm");
-        assert!(height.values[501..1500].iter().all(|y| (y + 160.0).abs() < 0.4));
-    }
 
     #[test]
     fn a_complete_crate_is_written_once() {
@@ -190,7 +170,7 @@ mod tests {
         let path = folder.path().join("my.mbs");
         write_declaration(&path).unwrap();
         let stepper = crate::declarations::read(&path, None).unwrap();
-        assert_eq!(stepper.info(), model::of::<template::Stepper>().info());
+        assert_eq!(stepper.info(), <template::Stepper as mbs_runtime::Mechanism>::INFO);
         let again = write_declaration(&path).unwrap_err().to_string();
         assert!(again.contains("cannot create") && again.contains("exists"), "{again}");
         assert!(write_declaration(Path::new("my.txt")).unwrap_err().to_string().contains("ends in .mbs"));
