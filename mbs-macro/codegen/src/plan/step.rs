@@ -4,7 +4,7 @@
 //!
 //! The program of a step is that of its stages, instruction by instruction. A value that several stages have
 //! in common is computed once. Operations and operands are those of the stages, so results agree to the bit
-//! (`tests/tests/fused_step.rs`). A step of more than 3072 instructions is left in stages.
+//! (`tests/tests/solutions/fused_step.rs`). A step of more than 3072 instructions is left in stages.
 //!
 //! A second pair of programs also gives the reactions at the start, without feedback: one more solution with
 //! the same factorization. In Rust these are generic functions, compiled where they are used.

@@ -190,7 +190,7 @@ fn other_widths_and_steps() {
 }
 
 /// Sines of `f32` lanes may be off by ε/2: what 1000 steps make of it is what
-/// `tests/single_precision.rs` allows between `f32` and `f64`.
+/// `tests/solutions/single_precision.rs` allows between `f32` and `f64`.
 #[test]
 fn single_precision() {
     let member = |index: usize| {

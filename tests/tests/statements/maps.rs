@@ -72,7 +72,7 @@ magnet! {
 }
 
 fn engine() -> mbs_live::Live {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/statements");
     Text::declaration("engine.mbs", ENGINE).in_folder(folder).compile().expect("an engine")
 }
 

@@ -2,9 +2,9 @@
 //! errors, and its Jacobians are those of differences.
 #![allow(clippy::unwrap_used, reason = "a test says by panicking what is wrong")]
 
-#[path = "../../models/examples/observer/filter.rs"]
+#[path = "../../../models/examples/observer/filter.rs"]
 mod filter;
-#[path = "../../models/examples/observer/rig.rs"]
+#[path = "../../../models/examples/observer/rig.rs"]
 mod rig;
 
 use models::SliderCrankFree;
