@@ -7,6 +7,10 @@
 //! This crate holds what crosses rooms: golden expansions (one mechanism whole, of others signatures), dense
 //! cross-checks, order, allocation, a freestanding link, operation counts, and published references. Each
 //! test file starts with what it holds.
+//! It also holds the tests of `mbs-runtime`, `mbs-analysis`, `mbs-ensemble`, `mbs-live` and `mbs-workbench` that
+//! declare types: this crate is not optimised, so that they compile in a fraction of the time.
+//! A folder of `tests` is one program with a module a file. What needs a process of its own, or is called by name, is a
+//! file.
 //!
 //! * `mbs-runtime/live/tests/mistakes` has mistakes in declarations with their answers.
 //! * `compile_fail` has what rustc shows of some. It is a crate of its own, since every case is compiled with all
