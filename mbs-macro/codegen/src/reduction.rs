@@ -205,7 +205,7 @@ fn given(model: &mut Model, equations: &Equations, rows: &Rows) -> Given {
     let mut given = Given::default();
     let mut dependences: BTreeMap<usize, Dependence> = BTreeMap::new();
     let preference = Preference::new(model, equations);
-    for row in model.of_positions(&rows.basis) {
+    for row in model.of_positions(&rows.alone()) {
         let mut dependence = Dependence::of_row(&model.arena, &equations.phi_q[row]);
         for (&coordinate, known) in &dependences {
             dependence.replace(coordinate, known);

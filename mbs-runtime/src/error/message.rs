@@ -216,8 +216,8 @@ impl fmt::Display for Error {
                 if has_redundant && !constraint.is_empty() {
                     write!(
                         f,
-                        "; of the constraints that repeat each other these are solved for, and they depend on \
-                         each other there: declare others of them first, which are then taken in their place"
+                        "; which of the constraints that repeat each other are left out was decided along a way from the \
+                         start: if others lead on here, declare those first"
                     )?;
                 }
                 Ok(())

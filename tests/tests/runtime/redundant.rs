@@ -58,6 +58,9 @@ fn spare_link_that_fits_at_the_first_instant_only_is_refused() {
     }
 }
 
+/// 1e-3 of the 2 m of the mechanism, in each of four rows that share what does not fit, and what a step adds.
+const MOST: f64 = 4.2e-3;
+
 /// At rest its accelerations fit too: gravity has to move it first.
 #[test]
 fn spare_link_that_locks_the_motion_ends_it() {
@@ -65,9 +68,8 @@ fn spare_link_that_locks_the_motion_ends_it() {
         let mut run = Simulation::new(fitting_at_the_start(third, 0.0), 1e-3).expect("a start at rest");
         let mut lanes = Pack::new([run; 4]);
         let error = run.advance_to(2.0).expect_err("locked");
-        assert!(matches!(error, Error::OutOfReach { constraint: "spare_x" | "spare_y", .. }), "{error:?}");
-        // 1e-3 of its 2 m
-        assert!(run.violation() < 2.1e-3 && run.violation() > 1e-3, "{error}: {:e}", run.violation());
+        assert!(matches!(error, Error::OutOfReach { .. }), "{error:?}");
+        assert!(run.violation() < MOST && run.violation() > 1e-3, "{error}: {:e}", run.violation());
         while lanes.advance(100) > 0 || lanes.step() == [true; 4] {}
         assert_eq!((lanes.steps(1), lanes.simulation(1).state()), (run.steps(), run.state()));
         let mut stages = Simulation::new(fitting_at_the_start(third, 0.0), 1e-3).expect("a start at rest");
@@ -85,7 +87,7 @@ fn spare_link_that_nearly_fits_never_flips_in_silence() {
         let mut run = Simulation::new(fitting_at_the_start(third, turning), 1e-3).expect("a start");
         for _ in 0..5000 {
             let result = run.step();
-            assert!(run.violation() < 2.1e-3, "{third}: {:e}", run.violation());
+            assert!(run.violation() < MOST, "{third}: {:e}", run.violation());
             if let Err(error) = result {
                 println!("{third}: {error}");
                 break;

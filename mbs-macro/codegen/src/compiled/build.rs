@@ -28,7 +28,7 @@ impl Compiled {
             constraints: model.constraints.iter().map(|row| constraint(&model, row)).collect(),
             line_count: model.line_count(),
             degrees_of_freedom: model.line_count() as i32 - plan.rows.basis.len() as i32,
-            redundant: plan.rows.redundant.to_vec(),
+            redundant: plan.rows.watched(),
             has_stiffness: plan.has_stiffness,
             velocity_forces: velocity_forces(&model, equations, &plan),
             kept: [false, true].map(|is_rate| kept(&model, is_rate)),

@@ -102,8 +102,8 @@ pub struct Compiled {
     pub events: Vec<Event>,
     /// Coordinates less independent constraints.
     pub degrees_of_freedom: i32,
-    /// Constraints that repeat what others say, by position; they share the multipliers
-    /// with these by the minimum norm.
+    /// Constraints that are met with others, by position, and watched: those that repeat what others say, and then those
+    /// with which they take turns. All share the multipliers by the minimum norm.
     pub redundant: Vec<usize>,
     /// True if forces depend on positions or velocities, so that an implicit stage is more than
     /// an explicit one.

@@ -39,6 +39,21 @@ pub fn row_echelon(rows: Vec<SparseRow<f64>>) -> Echelon {
 
 /// The same with another share below which the rest of a row counts as 0.
 pub fn row_echelon_within(rows: Vec<SparseRow<f64>>, tolerance: f64) -> Echelon {
+    let (rank, dependent, independence) = reduced(&rows, tolerance);
+    let explained = |rest: Reduced| (rest.at, rest.explained_by(tolerance));
+    Echelon { rank, dependent: dependent.into_iter().map(explained).collect(), independence }
+}
+
+/// What is left of a row that others explain, at positions that are closed to 1e-10.
+const EXPLAINED: f64 = 1e-6;
+
+/// Factors of rows with which they sum to 0, as many as rows depend on others.
+pub fn null_vectors(rows: Vec<SparseRow<f64>>) -> Vec<SparseRow<f64>> {
+    reduced(&rows, EXPLAINED).1.into_iter().map(|rest| rest.history).collect()
+}
+
+/// The rank, what is left of the rows that depend on others, and how much of each row others do not explain.
+fn reduced(rows: &[SparseRow<f64>], tolerance: f64) -> (usize, Vec<Reduced>, Vec<f64>) {
     let mut basis = Basis::default();
     let mut independence = vec![0.0; rows.len()];
     let mut waiting: Vec<usize> = (0..rows.len()).collect();
@@ -56,12 +71,7 @@ pub fn row_echelon_within(rows: Vec<SparseRow<f64>>, tolerance: f64) -> Echelon 
             }
         }
     }
-    let explained = |rest: Reduced| (rest.at, rest.explained_by(tolerance));
-    Echelon {
-        rank: basis.rows.len(),
-        dependent: dependent.into_iter().map(explained).collect(),
-        independence,
-    }
+    (basis.rows.len(), dependent, independence)
 }
 
 /// A reduced row and how it came from the given rows.

@@ -20,6 +20,9 @@ const POSITIONS: usize = 4;
 /// on the branch of the start.
 const STRIDE: f64 = 0.3;
 
+/// How much of other directions there is on a way.
+const SWERVE: f64 = 0.3;
+
 /// Positions closer than this are the same one.
 const SAME: f64 = 1e-3;
 
@@ -79,7 +82,8 @@ impl Manifold {
         let mut from = start.at.clone();
         let mut generator = Generator::new();
         for t in instants(assembly, &start.at) {
-            if let Some(closing) = stride(assembly, rows, &from, t, &mut generator) {
+            let mut anywhere = || (0..assembly.units.len()).map(|_| generator.symmetric()).collect();
+            if let Some(closing) = stride(assembly, rows, &from, t, &mut anywhere) {
                 from = closing.at.clone();
                 places.push(Place::new(assembly, closing));
             }
@@ -99,6 +103,31 @@ impl Manifold {
     /// The times at which the mechanism is looked at beside its start.
     pub fn instants(&self, assembly: &Assembly<'_>) -> Vec<f64> {
         instants(assembly, self.start())
+    }
+
+    /// Positions along a way that leads on from the start in one direction as far as it can, then in another.
+    pub fn walk(&self, assembly: &Assembly<'_>, rows: &[usize], count: usize) -> Vec<Position> {
+        let mut generator = Generator::new();
+        let mut way = vec![self.start().clone()];
+        let mut heading = vec![0.0; assembly.units.len()];
+        let interval = interval(assembly, self.start());
+        for _ in 0..count {
+            let Some(from) = way.last() else { break };
+            let next = stride(assembly, rows, from, from.t + interval, &mut || {
+                // on in the direction of before, with a little of all others
+                heading.iter().map(|along| along + SWERVE * generator.symmetric()).collect()
+            });
+            let Some(Closing { at, .. }) = next else {
+                heading.fill(0.0);
+                continue;
+            };
+            let apart = at.q.iter().zip(&from.q).zip(&assembly.units);
+            let moved: Vec<f64> = apart.map(|((next, from), unit)| (next - from) / unit).collect();
+            let size = moved.iter().fold(0.0_f64, |size, moved| size.max(moved.abs()));
+            heading = moved.iter().map(|moved| if size > SAME { moved / size } else { 0.0 }).collect();
+            way.push(at);
+        }
+        way
     }
 
     /// The position with the largest rank, where what holds there holds at every position that was
@@ -156,31 +185,35 @@ impl Manifold {
     }
 }
 
+/// The time in which the drives move the mechanism by about one stride; 0 where nothing depends on time.
+fn interval(assembly: &Assembly<'_>, start: &Position) -> f64 {
+    if !assembly.depends_on_time() {
+        return 0.0;
+    }
+    let speed = assembly.drive_speed(start);
+    // A drive that starts from rest says nothing: a tenth of a second.
+    if speed > 1e-6 && speed.is_finite() { STRIDE / speed } else { 0.1 }
+}
+
 /// Times between which the drives move the mechanism by about one stride; that of
 /// the start again and again where nothing depends on time.
 fn instants(assembly: &Assembly<'_>, start: &Position) -> Vec<f64> {
-    let interval = if assembly.depends_on_time() {
-        let speed = assembly.drive_speed(start);
-        // A drive that starts from rest says nothing: a tenth of a second.
-        if speed > 1e-6 && speed.is_finite() { STRIDE / speed } else { 0.1 }
-    } else {
-        0.0
-    };
+    let interval = interval(assembly, start);
     (1..=POSITIONS).map(|step| start.t + interval * step as f64).collect()
 }
 
-/// Another assembled position near `from`, if one is found.
+/// Another assembled position near `from` in some direction, in units of the coordinates, if one is found.
 fn stride(
     assembly: &Assembly<'_>,
     rows: &[usize],
     from: &Position,
     t: f64,
-    generator: &mut Generator,
+    direction: &mut dyn FnMut() -> Vec<f64>,
 ) -> Option<Closing> {
     let mut length = STRIDE;
     for _ in 0..3 {
-        let moved =
-            from.q.iter().zip(&assembly.units).map(|(q, unit)| q + length * unit * generator.symmetric());
+        let moved = from.q.iter().zip(&assembly.units).zip(direction());
+        let moved = moved.map(|((q, unit), along)| q + length * unit * along);
         let closing = assembly.close(rows, &Position { q: moved.collect(), t });
         // Another branch may have another rank; drives move as far as they do.
         let is_near = t != from.t || assembly.distance(&closing.at, from) <= 4.0 * STRIDE;

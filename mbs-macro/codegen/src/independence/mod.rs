@@ -7,7 +7,8 @@
 //!   have stand-ins, floating-point samples are asked as well (`samples`).
 //! * `assembly` finds positions numerically. `manifold` finds the rank at the declared dimensions.
 //! * `echelon`, `sparse` and `correction` are the linear algebra behind them, on sparse rows.
-//! * `redundancy` chooses rows under `redundant = minimum_norm;`.
+//! * `redundancy` chooses rows under `redundant = minimum_norm;`, and `sets` those of which another
+//!   one is spare in every position.
 //! * `words` speaks of rows as joints and bodies.
 //!
 //! Checks on equations, before the plan, stand here. Checks on the programs that are emitted stand in
@@ -25,8 +26,9 @@ mod rank;
 pub mod redundancy;
 mod rows;
 pub mod samples;
+pub mod sets;
 mod size;
-mod sparse;
+pub mod sparse;
 pub mod words;
 
 use mbs_symbolic::{Stage, Symbol};

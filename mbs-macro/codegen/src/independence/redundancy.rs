@@ -8,6 +8,7 @@ use super::assembly::{Assembly, Closing};
 use super::echelon::row_echelon;
 use super::manifold::Manifold;
 use super::rows::{Dependent, Rows};
+use super::sets;
 use super::words::{Part, repeats, unit};
 use crate::diagnostics::{Diagnostic, joined};
 use crate::model::Model;
@@ -35,8 +36,10 @@ pub fn choose(
                 return Err(nothing_redundant(model, statement));
             }
             no_rates(model, manifold)?;
-            let rows = Rows::without(count, redundant);
-            return fits_in_time(model, assembly, &rows, manifold).map(|()| rows);
+            let mut rows = Rows::without(count, redundant);
+            fits_in_time(model, assembly, &rows, manifold)?;
+            sets::find(model, assembly, manifold, &mut rows);
+            return Ok(rows);
         }
     }
     // All together they do not close, or leave less motion than promised: the

@@ -24,8 +24,7 @@ pub(super) fn correction(
     (samples, inputs): (&Samples, &Inputs),
     of_velocities: bool,
 ) -> Result<(Vec<Expr>, Vec<WatchedPivot>), Undetermined> {
-    let basis = if of_velocities { rows.basis.clone() } else { model.of_positions(&rows.basis) };
-    let rows = &Rows { basis, ..rows.clone() };
+    let rows = &if of_velocities { rows.clone() } else { of_positions(model, rows) };
     let held = held(model, equations, rows, samples, of_velocities);
     let kkt = system(model, equations, rows, &held);
     let factorization = match factor(&mut model.arena, &kkt, strategy) {
@@ -38,7 +37,7 @@ pub(super) fn correction(
         result => result?,
     };
     let mut rhs = BTreeMap::new();
-    for &at in &rows.basis {
+    for at in rows.eliminated() {
         rhs.insert(Unknown::Row(at), model.arena.variable(inputs.feedback[at]));
     }
     let solution = factorization.solve(&mut model.arena, &rhs);
@@ -47,6 +46,14 @@ pub(super) fn correction(
         .collect();
     roots.push(factorization.growth(&mut model.arena));
     Ok((roots, factorization.pivots))
+}
+
+/// Rows without the equations between rates, of which none is redundant.
+fn of_positions(model: &Model, rows: &Rows) -> Rows {
+    let basis = model.of_positions(&rows.basis);
+    let of_rates = rows.basis.iter().filter(|row| !basis.contains(row));
+    let left_out = rows.left_out.iter().chain(of_rates).copied().collect();
+    Rows { basis, left_out, ..rows.clone() }
 }
 
 /// The coordinates that keep their start values: in the order of declaration,

@@ -1,17 +1,15 @@
 //! Multipliers of constraints of which some repeat others.
 //!
-//! Only the independent rows B are solved for; the redundant ones are D = C·B,
-//! with the C that M u + Bᵀ cᵀ = Dᵀ, B u = 0 gives. The force Bᵀ λ_b is then
-//! shared by all rows: of the multipliers with Bᵀ λ + Dᵀ μ = Bᵀ λ_b, those of
-//! least norm are μ = (1 + C Cᵀ)⁻¹ C λ_b and λ = λ_b − Cᵀ μ.
+//! A redundant row d is a combination of the rows that are eliminated, dᵀ = Σ cᵣ Φ_q,ᵣᵀ, with the c that
+//! M u + Φ_qᵀ c = dᵀ, Φ_q u = 0 gives. So n = c − e_d holds nothing: Φ_qᵀ n = 0. Of all multipliers with the same
+//! force those of least norm have no part along any n. The vectors n are made orthogonal one after the other
+//! (Gram and Schmidt), and the part along each is taken away.
 //!
-//! The solutions for C come from the factorization of the step. The redundant rows themselves are watched by
+//! Of a set of which one row is spare (`independence/sets.rs`) every row gives such a vector, a multiple of the same n
+//! that may vanish. Together they do not, and the part along n is Σ g (g·λ) / Σ g·g over all of them.
+//!
+//! The solutions for c come from the factorization of the step. The redundant rows themselves are watched by
 //! the runtime (`spare.rs`).
-//!
-//! # Limits
-//!
-//! The independent rows are fixed at compile time. So a motion ends in a position where they depend on each
-//! other, even if other rows would lead on.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +18,7 @@ use mbs_symbolic::{Arena, Expr, Factorization, Number, Unknown};
 use crate::derive::Equations;
 use crate::independence::Rows;
 
-/// The multipliers of all rows, given those of the independent ones.
+/// The multipliers of all rows, given those of the rows that are eliminated.
 pub fn multipliers(
     arena: &mut Arena,
     equations: &Equations,
@@ -34,106 +32,90 @@ pub fn multipliers(
     if rows.redundant.is_empty() {
         return multipliers;
     }
-    for &row in &rows.basis {
+    for row in rows.eliminated() {
         multipliers[row] = arena.share(multipliers[row]);
     }
-    let combinations: Vec<Combination> =
-        rows.redundant.iter().map(|&row| combination(arena, equations, rows, factorization, row)).collect();
-    let mut forces = Vec::new();
-    for combination in &combinations {
-        let terms: Vec<_> = combination.iter().map(|(&row, &entry)| (entry, multipliers[row])).collect();
-        forces.push(contraction(arena, &terms));
+    let mut directions: Vec<Direction> = Vec::new();
+    let alone = rows.left_out.iter().map(std::slice::from_ref);
+    for set in rows.sets.iter().map(Vec::as_slice).chain(alone) {
+        let vectors =
+            set.iter().map(|&row| null_vector(arena, equations, rows, factorization, row)).collect();
+        let direction = Direction::new(arena, vectors, &directions);
+        directions.push(direction);
     }
-    let gram = gram(arena, &combinations);
-    let shares = solve(arena, gram, forces);
-    for (&row, &share) in rows.redundant.iter().zip(&shares) {
-        multipliers[row] = share;
-    }
-    for &row in &rows.basis {
-        let mut terms = vec![(multipliers[row], Number::ONE)];
-        for (combination, &share) in combinations.iter().zip(&shares) {
-            if let Some(&entry) = combination.get(&row) {
-                terms.push((arena.mul(entry, share), Number::MINUS_ONE));
-            }
+    for direction in &directions {
+        for (row, part) in direction.part(arena, |row| multipliers[*row]) {
+            multipliers[row] = arena.sub(multipliers[row], part);
         }
-        multipliers[row] = arena.sum(&terms);
     }
     multipliers
 }
 
-/// A redundant row as a combination of independent ones.
-type Combination = BTreeMap<usize, Expr>;
+/// A combination of rows that holds nothing, by row.
+type Vector = BTreeMap<usize, Expr>;
 
-fn combination(
+/// Parallel vectors of which one does not vanish, and 1/Σ g·g.
+struct Direction {
+    vectors: Vec<Vector>,
+    per_square: Expr,
+}
+
+impl Direction {
+    /// The parts of these vectors that are orthogonal to the directions before.
+    fn new(arena: &mut Arena, mut vectors: Vec<Vector>, before: &[Self]) -> Self {
+        for vector in &mut vectors {
+            for direction in before {
+                let zero = arena.zero();
+                let part = direction.part(arena, |row| vector.get(row).copied().unwrap_or(zero));
+                for (row, part) in part {
+                    let entry = vector.get(&row).copied().unwrap_or(zero);
+                    let entry = arena.sub(entry, part);
+                    vector.insert(row, arena.share(entry));
+                }
+            }
+        }
+        let squares: Vec<_> = vectors.iter().flat_map(|vector| vector.values()).collect();
+        let squares: Vec<_> = squares.into_iter().map(|&entry| (arena.powi(entry, 2), Number::ONE)).collect();
+        let square = arena.sum(&squares);
+        let per_square = arena.powi(square, -1);
+        let per_square = arena.share(per_square);
+        Self { vectors, per_square }
+    }
+
+    /// The part along this direction of what has these values by row.
+    fn part(&self, arena: &mut Arena, of: impl Fn(&usize) -> Expr) -> Vec<(usize, Expr)> {
+        let mut part: BTreeMap<usize, Vec<(Expr, Number)>> = BTreeMap::new();
+        for vector in &self.vectors {
+            let terms: Vec<_> =
+                vector.iter().map(|(row, &entry)| (arena.mul(entry, of(row)), Number::ONE)).collect();
+            let along = arena.sum(&terms);
+            let along = arena.mul(along, self.per_square);
+            let along = arena.share(along);
+            for (&row, &entry) in vector {
+                part.entry(row).or_default().push((arena.mul(entry, along), Number::ONE));
+            }
+        }
+        part.into_iter().map(|(row, terms)| (row, arena.sum(&terms))).collect()
+    }
+}
+
+/// c − e_d for a row d that is left out, or of a set.
+fn null_vector(
     arena: &mut Arena,
     equations: &Equations,
     rows: &Rows,
     factorization: &Factorization,
-    redundant: usize,
-) -> Combination {
-    let entries = equations.phi_q[redundant].iter();
+    row: usize,
+) -> Vector {
+    let entries = equations.phi_q[row].iter();
     let rhs = entries.map(|(&column, &entry)| (Unknown::Coordinate(column), entry)).collect();
     let solution = factorization.solve(arena, &rhs);
-    let of = |&row: &usize| Some((row, *solution.get(&Unknown::Row(row))?));
-    let found: Vec<(usize, Expr)> = rows.basis.iter().filter_map(of).collect();
-    let found = found.into_iter().filter(|(_, entry)| !arena.is_zero(*entry)).collect::<Vec<_>>();
-    found.into_iter().map(|(row, entry)| (row, arena.share(entry))).collect()
-}
-
-/// The lower half of 1 + C Cᵀ: positive definite whatever C is.
-fn gram(arena: &mut Arena, combinations: &[Combination]) -> Vec<Vec<Expr>> {
-    let mut matrix = Vec::new();
-    for (i, a) in combinations.iter().enumerate() {
-        let mut line = Vec::new();
-        for b in &combinations[..=i] {
-            let terms: Vec<_> = a.iter().filter_map(|(row, &x)| Some((x, *b.get(row)?))).collect();
-            line.push(contraction(arena, &terms));
-        }
-        let one = arena.one();
-        line[i] = arena.add(line[i], one);
-        matrix.push(line);
-    }
-    matrix
-}
-
-/// The solution of a positive definite system of which the lower half is given,
-/// by elimination in the given order.
-fn solve(arena: &mut Arena, mut matrix: Vec<Vec<Expr>>, mut rhs: Vec<Expr>) -> Vec<Expr> {
-    let size = rhs.len();
-    let mut inverses = Vec::new();
-    for k in 0..size {
-        let pivot = arena.share(matrix[k][k]);
-        let inverse = arena.powi(pivot, -1);
-        let inverse = arena.share(inverse);
-        inverses.push(inverse);
-        for i in k + 1..size {
-            let factor = arena.mul(matrix[i][k], inverse);
-            let factor = arena.share(factor);
-            let column: Vec<Expr> = matrix[k + 1..=i].iter().map(|line| line[k]).collect();
-            for (entry, other) in matrix[i][k + 1..].iter_mut().zip(column) {
-                let product = arena.mul(factor, other);
-                let updated = arena.sub(*entry, product);
-                *entry = arena.share(updated);
-            }
-            let product = arena.mul(factor, rhs[k]);
-            let entry = arena.sub(rhs[i], product);
-            rhs[i] = arena.share(entry);
-        }
-    }
-    for k in (0..size).rev() {
-        let mut terms = vec![(rhs[k], Number::ONE)];
-        for i in k + 1..size {
-            terms.push((arena.mul(matrix[i][k], rhs[i]), Number::MINUS_ONE));
-        }
-        let sum = arena.sum(&terms);
-        let value = arena.mul(sum, inverses[k]);
-        rhs[k] = arena.share(value);
-    }
-    rhs
-}
-
-/// Σ a·b
-fn contraction(arena: &mut Arena, pairs: &[(Expr, Expr)]) -> Expr {
-    let terms: Vec<_> = pairs.iter().map(|&(a, b)| (arena.mul(a, b), Number::ONE)).collect();
-    arena.sum(&terms)
+    let of = |row: usize| Some((row, *solution.get(&Unknown::Row(row))?));
+    let mut vector: Vector = rows.eliminated().filter_map(of).collect();
+    let zero = arena.zero();
+    let own = vector.get(&row).copied().unwrap_or(zero);
+    let one = arena.one();
+    vector.insert(row, arena.sub(own, one));
+    vector.retain(|_, entry| !arena.is_zero(*entry));
+    vector.into_iter().map(|(row, entry)| (row, arena.share(entry))).collect()
 }

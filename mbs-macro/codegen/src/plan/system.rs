@@ -51,12 +51,13 @@ pub fn system(model: &Model, equations: &Equations, rows: &Rows, held: &BTreeSet
             kkt.set(&model.arena, Unknown::Coordinate(i), Unknown::Coordinate(j), entry);
         }
     }
-    for &at in &rows.basis {
+    for at in rows.eliminated() {
         kkt.add_unknown(Unknown::Row(at));
         for (&column, &entry) in equations.phi_q[at].iter().filter(|(column, _)| !held.contains(column)) {
             kkt.set(&model.arena, Unknown::Row(at), Unknown::Coordinate(column), entry);
         }
     }
+    rows.sets.iter().for_each(|set| kkt.mark_set(set));
     if let Some(unit) = extreme_mass(model, equations) {
         kkt.set_mass_unit(unit.into());
     }
@@ -255,7 +256,7 @@ impl Solver {
     /// given violation below.
     pub fn projection(&self, model: &mut Model, rows: &Rows, inputs: &Inputs) -> Vec<Expr> {
         let mut rhs = BTreeMap::new();
-        for &at in &rows.basis {
+        for at in rows.eliminated() {
             rhs.insert(Unknown::Row(at), model.arena.variable(inputs.feedback[at]));
         }
         let solution = self.factorization.solve(&mut model.arena, &rhs);
@@ -324,7 +325,7 @@ impl Solver {
         for (at, &force) in self.forces.values.iter().enumerate() {
             rhs.insert(Unknown::Coordinate(at), force);
         }
-        for &at in &rows.basis {
+        for at in rows.eliminated() {
             rhs.insert(Unknown::Row(at), model.arena.add(equations.gamma[at], feedback[at]));
         }
         let mut solution = self.factorization.solve_with(&mut model.arena, &rhs, sums);

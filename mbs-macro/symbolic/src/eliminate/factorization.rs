@@ -34,7 +34,7 @@ pub struct Factorization {
 }
 
 /// K_ii − K_ip²/K_pp, before it is subtracted.
-struct Reduction {
+pub(super) struct Reduction {
     entry: Expr,
     coupling: Expr,
     pivot: Expr,
@@ -55,7 +55,7 @@ pub(super) struct Work<'a> {
     /// when the first diagonal pivot is taken.
     pub(super) scales: Option<BTreeMap<Unknown, Expr>>,
     /// The diagonal entries of rows that the pivot of the step before reduced.
-    reductions: BTreeMap<Unknown, Reduction>,
+    pub(super) reductions: BTreeMap<Unknown, Reduction>,
     pub(super) is_open: bool,
     pub(super) steps: Vec<Step>,
     order: Vec<Elimination>,

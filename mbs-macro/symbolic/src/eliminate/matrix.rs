@@ -23,6 +23,8 @@ pub struct Kkt {
     massive: BTreeSet<Unknown>,
     /// Coordinates that are angles: entries of theirs are not compared with those of lengths.
     angles: BTreeSet<Unknown>,
+    /// Sets of rows of which one is spare, in the order in which they are eliminated; see [`super::deflation`].
+    sets: Vec<Vec<Unknown>>,
     /// The unit in which masses are measured, beside the factor that they share.
     mass_unit: Option<Number>,
 }
@@ -46,6 +48,28 @@ impl Kkt {
     /// Declares that a coordinate is an angle.
     pub fn mark_angle(&mut self, coordinate: usize) {
         self.angles.insert(Unknown::Coordinate(coordinate));
+    }
+
+    /// Declares that of these rows one is spare beside all rows but those of later sets, in some position this one, in
+    /// another that.
+    pub fn mark_set(&mut self, rows: &[usize]) {
+        self.sets.push(rows.iter().copied().map(Unknown::Row).collect());
+    }
+
+    /// True if a row is one of a set of which one is spare.
+    pub(super) fn is_in_set(&self, row: Unknown) -> bool {
+        self.sets.iter().any(|set| set.contains(&row))
+    }
+
+    /// The first set, if nothing but such rows is left.
+    pub(super) fn next_set(&self) -> Option<&[Unknown]> {
+        let is_ready = self.couplings.keys().all(|&unknown| self.is_in_set(unknown));
+        self.sets.first().filter(|_| is_ready).map(Vec::as_slice)
+    }
+
+    /// Lets the rows of a set be eliminated as all others are.
+    pub(super) fn release(&mut self, rows: &[Unknown]) {
+        self.sets.retain(|set| set != rows);
     }
 
     /// The entries of a row in the columns of coordinates of one kind, angles or lengths.

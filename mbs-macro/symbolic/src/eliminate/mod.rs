@@ -16,6 +16,9 @@
 //! determine them, their rows are added to the mass block first
 //! (`augmentation`), which makes it positive definite.
 //!
+//! Of some rows one may be spare, in every position another one (`deflation`). They come
+//! last, and are made independent first.
+//!
 //! [`factor`] fixes the order and the multipliers for the matrix;
 //! [`Factorization::solve`] then gives the solution for any right-hand side,
 //! as expressions.
@@ -37,6 +40,7 @@
 //! multiplies right-hand sides out where that costs less.
 
 mod augmentation;
+mod deflation;
 mod factorization;
 mod matrix;
 mod order;
@@ -68,8 +72,8 @@ pub fn factor(arena: &mut Arena, kkt: &Kkt, strategy: Strategy) -> Result<Factor
 /// The same, as long as no more than `most` entries of the matrix change on the
 /// way: `None` where the order fills the matrix.
 ///
-/// The loop ends: a pivot takes out at least one unknown, and rows are added to
-/// masses only while some mass is uncertain, which none is afterwards.
+/// The loop ends: a pivot takes out at least one unknown, rows are added to
+/// masses only while some mass is uncertain, which none is afterwards, and each set of rows is deflated once.
 ///
 /// # Errors
 /// As those of [`factor`].
@@ -90,6 +94,7 @@ pub fn factor_within(
                 (taken, touched)
             }
             Next::Augmentation(rows) => (Vec::new(), work.matrix.touched_by(rows)),
+            Next::Deflation(rows) => (Vec::new(), rows.iter().copied().collect()),
         };
         changed += touched.len() * (touched.len() + 1) / 2;
         if changed > most {
@@ -98,6 +103,7 @@ pub fn factor_within(
         match next {
             Next::Pivot(pivot) => work.eliminate(pivot),
             Next::Augmentation(rows) => work.augment(&rows),
+            Next::Deflation(rows) => work.deflate(&rows),
         }
         order.update(work.arena, &work.matrix, &taken, &touched);
     }

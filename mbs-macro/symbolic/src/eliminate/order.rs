@@ -48,6 +48,8 @@ pub(super) enum Next {
     Pivot(Pivot),
     /// These rows are added to the mass block, see [`super::augmentation`].
     Augmentation(Vec<Unknown>),
+    /// These rows are made independent of each other, see [`super::deflation`].
+    Deflation(Vec<Unknown>),
 }
 
 impl Pivot {
@@ -207,7 +209,10 @@ impl Order {
         match self.best() {
             Some(candidate) => Ok(Some(Next::Pivot(candidate.pivot))),
             None if matrix.unknowns().next().is_none() => Ok(None),
-            None => Err(Undetermined { unknowns: matrix.unknowns().collect() }),
+            None => match matrix.next_set() {
+                Some(rows) => Ok(Some(Next::Deflation(rows.to_vec()))),
+                None => Err(Undetermined { unknowns: matrix.unknowns().collect() }),
+            },
         }
     }
 
@@ -244,6 +249,8 @@ impl Order {
 
     fn candidates_of(&self, arena: &Arena, matrix: &Kkt, unknown: Unknown) -> Vec<Candidate> {
         match unknown {
+            // it waits for all others
+            Unknown::Row(_) if matrix.is_in_set(unknown) => Vec::new(),
             Unknown::Row(_) if matrix.get(unknown, unknown).is_none() => {
                 self.pair_candidates(arena, matrix, unknown)
             }

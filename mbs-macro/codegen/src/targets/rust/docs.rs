@@ -13,7 +13,8 @@ pub fn mechanism(compiled: &Compiled) -> String {
     let mut text = compiled.doc.clone();
     let coordinates = counted(compiled.coordinates.len(), "coordinate");
     let constraints = counted(compiled.constraints.len(), "constraint");
-    let redundant = match compiled.redundant.len() {
+    let independent = compiled.line_count as i32 - compiled.degrees_of_freedom;
+    let redundant = match compiled.constraints.len() as i32 - independent {
         0 => String::new(),
         count => format!(" ({count} of them redundant)"),
     };

@@ -12,6 +12,8 @@ use mbs_interface::FunctionId;
 use mbs_symbolic::{Program, Rounded, Symbol};
 
 use super::{Check, DIRECTIONS, Jet, Point, run};
+use crate::independence::sets;
+use crate::independence::sparse::SparseRow;
 use crate::inputs::Input;
 use crate::model::Meaning;
 
@@ -97,7 +99,7 @@ impl Point<'_> {
             same("stabilized", &values[..s], &states(&reactions))?;
             same("feedback", &values[s..s + own.len()], &fed_back)?;
         }
-        let rows = &plan.rows.basis;
+        let rows = &plan.rows.alone();
         let of_positions = self.model.of_positions(rows);
         for (function, rows) in [
             (FunctionId::PositionCorrection, &of_positions),
@@ -167,7 +169,7 @@ impl Point<'_> {
     fn accelerated(&self, name: &str, accelerations: &[Rounded], feedback: &[f64]) -> Check {
         let along = self.phi(&|at| self.velocity(at), &|at| accelerations[at].value, 1.0);
         let rows = along.iter().map(|row| row.second).collect::<Vec<_>>();
-        self.rows_are((name, &self.plan.rows.basis), &rows, feedback, accelerations)
+        self.rows_are((name, &self.plan.rows.alone()), &rows, feedback, accelerations)
     }
 
     /// The rows that are solved for have come out as they should.
@@ -189,7 +191,40 @@ impl Point<'_> {
                 ));
             }
         }
+        self.sets_are(name, found, expected, solution)
+    }
+
+    /// The rows of a set have come out as they should, but for what is spare among them.
+    fn sets_are(&self, name: &str, found: &[Rounded], expected: &[f64], solution: &[Rounded]) -> Check {
+        let rows = &self.plan.rows;
+        let Some(spare) = sets::spare(&self.rows_of_phi_q(), rows) else { return Ok(()) };
+        let (size, error) = (largest(solution, |x| x.value), largest(solution, |x| x.error));
+        let coefficients = self.coefficients();
+        for (set, spare) in rows.sets.iter().zip(spare) {
+            let rest = |row: usize| found[row].value - expected[row];
+            let along: f64 = set.iter().zip(&spare).map(|(&row, n)| n * rest(row)).sum();
+            let sum = |of: &dyn Fn(usize) -> f64| set.iter().map(|&row| of(row)).sum::<f64>();
+            let of_row =
+                |row: usize| found[row].error / f64::EPSILON + expected[row].abs() + coefficients[row] * size;
+            let (terms, allowed) = (sum(&of_row), sum(&|row| coefficients[row] * error));
+            for (&row, n) in set.iter().zip(&spare) {
+                let left = rest(row) - n * along;
+                if exceeds(left, terms, allowed) {
+                    return Err(format!("`{name}` does not solve row {row} of a set: {left:e} is left"));
+                }
+            }
+        }
         Ok(())
+    }
+
+    /// Φ_q, by rows.
+    fn rows_of_phi_q(&self) -> Vec<SparseRow<f64>> {
+        let mut rows = vec![SparseRow::new(); self.model.constraints.len()];
+        let entries = self.run(&self.plan.programs[FunctionId::PhiQ]);
+        for (&(row, column), entry) in self.plan.phi_q_places.iter().zip(entries) {
+            rows[row].push((column, entry.value));
+        }
+        rows
     }
 
     /// Q, with loads that depend on reactions taken at the reactions found.

@@ -1,0 +1,212 @@
+//! Which rows are left out where some repeat others, and sets of rows of which one is spare in every position.
+//!
+//! Rows repeat each other where Σ nᵣ Φ_q,ᵣ = 0. A row may be left out if its nᵣ is not 0. Where n changes with the
+//! position, that of a row may vanish: the others then depend on each other, and a motion would end there. So a set of
+//! rows is looked for whose parts of n never vanish together. The elimination takes all rows of a set and finds
+//! what is spare among them (`eliminate/deflation.rs` in mbs-symbolic).
+//!
+//! # How it works
+//!
+//! Along a way from the start all n are computed, an orthonormal basis of them at each position. A row or a set takes
+//! one dimension away: what is left are the n that are 0 on it. The one that is taken first is eliminated last.
+//!
+//! # Limits
+//!
+//! A way that leads on from the start in one direction does not see all positions of a mechanism of several degrees of
+//! freedom. A set has four rows at most, those of two pins.
+
+use super::assembly::Assembly;
+use super::echelon::null_vectors;
+use super::manifold::Manifold;
+use super::rows::Rows;
+use super::sparse::SparseRow;
+use crate::model::Model;
+
+/// Positions that are looked at: at 0.3 rad each, two turns.
+const POSITIONS: usize = 48;
+
+/// A part of n that never falls below this share of its largest value stays away from 0.
+const STEADY: f64 = 0.3;
+
+/// A set is worth its operations if its part of n stays this much larger than that of a row alone.
+const WORTH: f64 = 2.0;
+
+/// The most rows of a set: minors of three rows are cheap, and keep their digits.
+const LARGEST: usize = 4;
+
+/// Squares of parts below this are what rounding left of 0.
+const NONE: f64 = 1e-12;
+
+/// An orthonormal basis of all n at a position.
+type Basis = Vec<Vec<f64>>;
+
+/// Finds the rows that are left out, and the sets.
+pub fn find(model: &Model, assembly: &Assembly<'_>, manifold: &Manifold, rows: &mut Rows) {
+    let count = rows.redundant.len();
+    let way = manifold.walk(assembly, &rows.basis, POSITIONS);
+    let bases = way.iter().map(|at| orthonormal(null_vectors(assembly.jacobian(at).0), assembly.rows()));
+    let mut bases: Vec<Basis> = bases.filter(|basis| basis.len() == count).collect();
+    let mut sources: Vec<Vec<usize>> = Vec::new();
+    for row in 0..assembly.rows() {
+        let is_of = |set: &&mut Vec<usize>| model.constraints[set[0]].source == model.constraints[row].source;
+        match sources.iter_mut().find(is_of) {
+            Some(set) => set.push(row),
+            None => sources.push(vec![row]),
+        }
+    }
+    let mut single = rows.redundant.clone();
+    let (mut left_out, mut sets) = (Vec::new(), Vec::new());
+    for dimension in (1..=count).rev() {
+        let alone: Vec<_> = single.iter().map(|&row| (row, part(&bases, &[row]))).collect();
+        let steadiest = alone.into_iter().max_by(|a, b| a.1.steadiness().total_cmp(&b.1.steadiness()));
+        let Some((row, of_row)) = steadiest else { break };
+        let set = if of_row.is_steady() { None } else { best_set(&bases, &sources, dimension) };
+        let taken = match set.filter(|set| part(&bases, set).least > WORTH * of_row.least) {
+            None => {
+                left_out.push(row);
+                vec![row]
+            }
+            Some(set) => {
+                sets.push(set.clone());
+                set
+            }
+        };
+        // a set has one of the redundant rows' places, of its own rows if it can
+        let spent = single.iter().position(|row| taken.contains(row)).unwrap_or(0);
+        single.remove(spent);
+        bases.iter_mut().for_each(|basis| restrict(basis, &taken));
+        bases.retain(|basis| basis.len() == dimension - 1);
+    }
+    sets.reverse();
+    left_out.sort_unstable();
+    (rows.left_out, rows.sets) = (left_out, sets);
+}
+
+/// Of every set the direction, over its rows, in which it says nothing at a position; `None` if more or fewer rows are
+/// spare there.
+pub fn spare(jacobian: &[SparseRow<f64>], rows: &Rows) -> Option<Vec<Vec<f64>>> {
+    let taken: Vec<usize> = rows.eliminated().collect();
+    let vectors = null_vectors(taken.iter().map(|&row| jacobian[row].clone()).collect());
+    let of_all = vectors.into_iter().map(|vector| vector.into_iter().map(|(at, n)| (taken[at], n)).collect());
+    let mut basis = orthonormal(of_all.collect(), rows.count);
+    if basis.len() != rows.sets.len() {
+        return None;
+    }
+    let mut directions = Vec::new();
+    for set in rows.sets.iter().rev() {
+        let row = largest(&basis, set)?;
+        let along = set.iter().map(|&other| basis.iter().map(|n| n[other] * n[row]).sum::<f64>());
+        let along: Vec<f64> = along.collect();
+        let size = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+        directions.push(along.into_iter().map(|x| x / size).collect());
+        restrict(&mut basis, set);
+    }
+    directions.reverse();
+    Some(directions)
+}
+
+/// A set of which one row is spare: the rows of a joint, or, where there is one n alone, of several.
+fn best_set(bases: &[Basis], sources: &[Vec<usize>], dimension: usize) -> Option<Vec<usize>> {
+    let steadiest = |candidates: &mut dyn Iterator<Item = Vec<usize>>| {
+        let rated = candidates.map(|set| (part(bases, &set), set));
+        rated.max_by(|a, b| a.0.steadiness().total_cmp(&b.0.steadiness()))
+    };
+    let are_parallel =
+        |set: &Vec<usize>| set.len() <= LARGEST && bases.iter().all(|basis| is_one(basis, set));
+    let (mut of_set, mut set) = steadiest(&mut sources.iter().filter(|set| are_parallel(set)).cloned())?;
+    while dimension == 1 && !of_set.is_steady() {
+        let more = sources.iter().filter(|more| !set.contains(&more[0]) && set.len() + more.len() <= LARGEST);
+        let (of_more, more) = steadiest(&mut more.map(|more| [set.as_slice(), more].concat()))?;
+        if of_more.steadiness() <= of_set.steadiness() {
+            break;
+        }
+        (of_set, set) = (of_more, more);
+    }
+    set.sort_unstable();
+    Some(set)
+}
+
+/// How large the part of n on some rows is over all positions.
+#[derive(Clone, Copy)]
+struct Part {
+    least: f64,
+    most: f64,
+}
+
+impl Part {
+    fn steadiness(self) -> f64 {
+        if self.most > 0.0 { self.least / self.most } else { 0.0 }
+    }
+
+    fn is_steady(self) -> bool {
+        self.steadiness() >= STEADY
+    }
+}
+
+fn part(bases: &[Basis], rows: &[usize]) -> Part {
+    let square =
+        |basis: &Basis| basis.iter().flat_map(|n| rows.iter().map(|&row| n[row].powi(2))).sum::<f64>();
+    bases.iter().map(|basis| square(basis).sqrt()).fold(
+        Part { least: f64::INFINITY, most: 0.0 },
+        |part, size| Part { least: part.least.min(size), most: part.most.max(size) },
+    )
+}
+
+/// True if all n have parallel parts on these rows, so that one of them is spare and not two.
+fn is_one(basis: &Basis, rows: &[usize]) -> bool {
+    let dot = |a: usize, b: usize| basis.iter().map(|n| n[a] * n[b]).sum::<f64>();
+    rows.iter().all(|&a| rows.iter().all(|&b| dot(a, a) * dot(b, b) - dot(a, b).powi(2) < NONE))
+}
+
+/// The row on which the n are largest.
+fn largest(basis: &Basis, rows: &[usize]) -> Option<usize> {
+    let square = |row: usize| basis.iter().map(|n| n[row].powi(2)).sum::<f64>();
+    rows.iter().copied().max_by(|&a, &b| square(a).total_cmp(&square(b)))
+}
+
+/// Keeps the n that are 0 on these rows, on which all have parallel parts.
+fn restrict(basis: &mut Basis, rows: &[usize]) {
+    let Some(row) = largest(basis, rows) else { return };
+    let along: Vec<f64> = basis.iter().map(|n| n[row]).collect();
+    let square: f64 = along.iter().map(|x| x * x).sum();
+    let without = (0..basis.len()).map(|at| {
+        let mut n = basis[at].clone();
+        for (other, of_other) in basis.iter().zip(&along) {
+            n.iter_mut().zip(other).for_each(|(n, other)| *n -= along[at] * of_other / square * other);
+        }
+        n
+    });
+    let without: Vec<Vec<f64>> = without.collect();
+    *basis = gram_schmidt(without);
+}
+
+fn orthonormal(vectors: Vec<Vec<(usize, f64)>>, count: usize) -> Basis {
+    let dense = vectors.into_iter().map(|vector| {
+        let mut dense = vec![0.0; count];
+        vector.into_iter().for_each(|(row, factor)| dense[row] = factor);
+        dense
+    });
+    gram_schmidt(dense.collect())
+}
+
+/// An orthonormal basis of what vectors span, the largest rest first.
+fn gram_schmidt(mut vectors: Vec<Vec<f64>>) -> Basis {
+    let square = |vector: &Vec<f64>| vector.iter().map(|x| x * x).sum::<f64>();
+    let mut basis = Basis::new();
+    while let Some(at) =
+        (0..vectors.len()).max_by(|&a, &b| square(&vectors[a]).total_cmp(&square(&vectors[b])))
+    {
+        let mut next = vectors.swap_remove(at);
+        let size = square(&next).sqrt();
+        if !(size * size > NONE && size.is_finite()) {
+            break;
+        }
+        next.iter_mut().for_each(|x| *x /= size);
+        for vector in &mut vectors {
+            let along: f64 = vector.iter().zip(&next).map(|(x, n)| x * n).sum();
+            vector.iter_mut().zip(&next).for_each(|(x, n)| *x -= along * n);
+        }
+        basis.push(next);
+    }
+    basis
+}
