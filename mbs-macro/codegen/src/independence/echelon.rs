@@ -39,9 +39,13 @@ pub fn row_echelon(rows: Vec<SparseRow<f64>>) -> Echelon {
 
 /// The same with another share below which the rest of a row counts as 0.
 pub fn row_echelon_within(rows: Vec<SparseRow<f64>>, tolerance: f64) -> Echelon {
-    let (rank, dependent, independence) = reduced(&rows, tolerance);
+    let (basis, dependent, independence) = reduced(&rows, tolerance);
     let explained = |rest: Reduced| (rest.at, rest.explained_by(tolerance));
-    Echelon { rank, dependent: dependent.into_iter().map(explained).collect(), independence }
+    Echelon {
+        rank: basis.rows.len(),
+        dependent: dependent.into_iter().map(explained).collect(),
+        independence,
+    }
 }
 
 /// What is left of a row that others explain, at positions that are closed to 1e-10.
@@ -52,8 +56,22 @@ pub fn null_vectors(rows: Vec<SparseRow<f64>>) -> Vec<SparseRow<f64>> {
     reduced(&rows, EXPLAINED).1.into_iter().map(|rest| rest.history).collect()
 }
 
-/// The rank, what is left of the rows that depend on others, and how much of each row others do not explain.
-fn reduced(rows: &[SparseRow<f64>], tolerance: f64) -> (usize, Vec<Reduced>, Vec<f64>) {
+/// The columns whose unit vectors are independent of rows and of each other, in the given order.
+pub fn free_columns(rows: &[SparseRow<f64>], columns: &[usize]) -> Vec<usize> {
+    let mut basis = reduced(rows, EXPLAINED).0;
+    let mut free = Vec::new();
+    for &column in columns {
+        let rest = basis.rest(rows.len() + column, &vec![(column, 1.0)]);
+        if !rest.entries.is_empty() && rest.share() > EXPLAINED {
+            basis.insert(rest);
+            free.push(column);
+        }
+    }
+    free
+}
+
+/// A basis, what is left of the rows that depend on others, and how much of each row others do not explain.
+fn reduced(rows: &[SparseRow<f64>], tolerance: f64) -> (Basis, Vec<Reduced>, Vec<f64>) {
     let mut basis = Basis::default();
     let mut independence = vec![0.0; rows.len()];
     let mut waiting: Vec<usize> = (0..rows.len()).collect();
@@ -71,7 +89,7 @@ fn reduced(rows: &[SparseRow<f64>], tolerance: f64) -> (usize, Vec<Reduced>, Vec
             }
         }
     }
-    (basis.rows.len(), dependent, independence)
+    (basis, dependent, independence)
 }
 
 /// A reduced row and how it came from the given rows.

@@ -18,13 +18,10 @@ const POSITIONS: usize = 4;
 /// How far a position is moved before it is assembled again, in radians or
 /// typical lengths: far enough to leave a singular position, near enough to stay
 /// on the branch of the start.
-const STRIDE: f64 = 0.3;
-
-/// How much of other directions there is on a way.
-const SWERVE: f64 = 0.3;
+pub const STRIDE: f64 = 0.3;
 
 /// Positions closer than this are the same one.
-const SAME: f64 = 1e-3;
+pub const SAME: f64 = 1e-3;
 
 /// Where constraints touch, as a circle touches its tangent, a violation δ² leaves a distance of
 /// the order of δ, and so much of a row that others do not explain. Some ten times that.
@@ -105,31 +102,6 @@ impl Manifold {
         instants(assembly, self.start())
     }
 
-    /// Positions along a way that leads on from the start in one direction as far as it can, then in another.
-    pub fn walk(&self, assembly: &Assembly<'_>, rows: &[usize], count: usize) -> Vec<Position> {
-        let mut generator = Generator::new();
-        let mut way = vec![self.start().clone()];
-        let mut heading = vec![0.0; assembly.units.len()];
-        let interval = interval(assembly, self.start());
-        for _ in 0..count {
-            let Some(from) = way.last() else { break };
-            let next = stride(assembly, rows, from, from.t + interval, &mut || {
-                // on in the direction of before, with a little of all others
-                heading.iter().map(|along| along + SWERVE * generator.symmetric()).collect()
-            });
-            let Some(Closing { at, .. }) = next else {
-                heading.fill(0.0);
-                continue;
-            };
-            let apart = at.q.iter().zip(&from.q).zip(&assembly.units);
-            let moved: Vec<f64> = apart.map(|((next, from), unit)| (next - from) / unit).collect();
-            let size = moved.iter().fold(0.0_f64, |size, moved| size.max(moved.abs()));
-            heading = moved.iter().map(|moved| if size > SAME { moved / size } else { 0.0 }).collect();
-            way.push(at);
-        }
-        way
-    }
-
     /// The position with the largest rank, where what holds there holds at every position that was
     /// looked at.
     fn generic(&self) -> &Place {
@@ -186,7 +158,7 @@ impl Manifold {
 }
 
 /// The time in which the drives move the mechanism by about one stride; 0 where nothing depends on time.
-fn interval(assembly: &Assembly<'_>, start: &Position) -> f64 {
+pub fn interval(assembly: &Assembly<'_>, start: &Position) -> f64 {
     if !assembly.depends_on_time() {
         return 0.0;
     }
@@ -203,7 +175,7 @@ fn instants(assembly: &Assembly<'_>, start: &Position) -> Vec<f64> {
 }
 
 /// Another assembled position near `from` in some direction, in units of the coordinates, if one is found.
-fn stride(
+pub fn stride(
     assembly: &Assembly<'_>,
     rows: &[usize],
     from: &Position,

@@ -29,6 +29,7 @@ pub mod samples;
 pub mod sets;
 mod size;
 pub mod sparse;
+mod ways;
 pub mod words;
 
 use mbs_symbolic::{Stage, Symbol};

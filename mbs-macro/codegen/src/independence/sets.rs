@@ -7,23 +7,20 @@
 //!
 //! # How it works
 //!
-//! Along a way from the start all n are computed, an orthonormal basis of them at each position. A row or a set takes
+//! Along ways from the start (`ways`) all n are computed, an orthonormal basis of them at each position. A row or a set takes
 //! one dimension away: what is left are the n that are 0 on it. The one that is taken first is eliminated last.
 //!
 //! # Limits
 //!
-//! A way that leads on from the start in one direction does not see all positions of a mechanism of several degrees of
-//! freedom. A set has four rows at most, those of two pins.
+//! Ways do not see all positions of a mechanism of several degrees of freedom. A set has four rows at most, those of two pins.
 
 use super::assembly::Assembly;
 use super::echelon::null_vectors;
 use super::manifold::Manifold;
 use super::rows::Rows;
 use super::sparse::SparseRow;
+use super::ways;
 use crate::model::Model;
-
-/// Positions that are looked at: at 0.3 rad each, two turns.
-const POSITIONS: usize = 48;
 
 /// A part of n that never falls below this share of its largest value stays away from 0.
 const STEADY: f64 = 0.3;
@@ -43,8 +40,9 @@ type Basis = Vec<Vec<f64>>;
 /// Finds the rows that are left out, and the sets.
 pub fn find(model: &Model, assembly: &Assembly<'_>, manifold: &Manifold, rows: &mut Rows) {
     let count = rows.redundant.len();
-    let way = manifold.walk(assembly, &rows.basis, POSITIONS);
-    let bases = way.iter().map(|at| orthonormal(null_vectors(assembly.jacobian(at).0), assembly.rows()));
+    let positions = ways::positions(model, assembly, manifold.start());
+    let bases =
+        positions.iter().map(|at| orthonormal(null_vectors(assembly.jacobian(at).0), assembly.rows()));
     let mut bases: Vec<Basis> = bases.filter(|basis| basis.len() == count).collect();
     let mut sources: Vec<Vec<usize>> = Vec::new();
     for row in 0..assembly.rows() {
@@ -57,23 +55,24 @@ pub fn find(model: &Model, assembly: &Assembly<'_>, manifold: &Manifold, rows: &
     let mut single = rows.redundant.clone();
     let (mut left_out, mut sets) = (Vec::new(), Vec::new());
     for dimension in (1..=count).rev() {
-        let alone: Vec<_> = single.iter().map(|&row| (row, part(&bases, &[row]))).collect();
-        let steadiest = alone.into_iter().max_by(|a, b| a.1.steadiness().total_cmp(&b.1.steadiness()));
+        if single.is_empty() {
+            single = sources.concat();
+        }
+        let alone = single.iter().map(|&row| (row, part(&bases, &[row])));
+        let steadiest = alone.max_by(|a, b| a.1.steadiness().total_cmp(&b.1.steadiness()));
         let Some((row, of_row)) = steadiest else { break };
         let set = if of_row.is_steady() { None } else { best_set(&bases, &sources, dimension) };
         let taken = match set.filter(|set| part(&bases, set).least > WORTH * of_row.least) {
-            None => {
-                left_out.push(row);
-                vec![row]
-            }
-            Some(set) => {
-                sets.push(set.clone());
-                set
-            }
+            Some(set) => set,
+            None => vec![row],
         };
-        // a set has one of the redundant rows' places, of its own rows if it can
-        let spent = single.iter().position(|row| taken.contains(row)).unwrap_or(0);
-        single.remove(spent);
+        match taken[..] {
+            [row] => left_out.push(row),
+            _ => sets.push(taken.clone()),
+        }
+        single.retain(|row| !taken.contains(row));
+        sources.iter_mut().for_each(|source| source.retain(|row| !taken.contains(row)));
+        sources.retain(|source| !source.is_empty());
         bases.iter_mut().for_each(|basis| restrict(basis, &taken));
         bases.retain(|basis| basis.len() == dimension - 1);
     }
@@ -135,7 +134,7 @@ struct Part {
 
 impl Part {
     fn steadiness(self) -> f64 {
-        if self.most > 0.0 { self.least / self.most } else { 0.0 }
+        if self.most > NONE.sqrt() { self.least / self.most } else { 0.0 }
     }
 
     fn is_steady(self) -> bool {
