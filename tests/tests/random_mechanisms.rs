@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use tests::fuzzing::verdict::{Verdict, judge};
 use tests::linkages::declaration;
 
-const MECHANISMS: u64 = 300;
+const MECHANISMS: u64 = 200;
 
 /// The time after which a compilation counts as endless, on machines that are busy with something else too.
 /// No mechanism is large: the longest takes seconds. How long a compilation takes is measured by

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use tests::fuzzing::verdict::{Verdict, judge};
 use tests::fuzzing::{input, seeds};
 
-const INPUTS: u64 = 5_000;
+const INPUTS: u64 = 3_000;
 
 /// A minute for what takes milliseconds: this is a test of answers, and machines
 /// are busy at times. `cargo run --example fuzz` looks at times.

@@ -1,5 +1,6 @@
 //! Mechanisms from texts: what compiles, what is answered, and runs of what is compiled.
 
+mod cranks;
 mod errors;
 mod exact;
 mod files;
