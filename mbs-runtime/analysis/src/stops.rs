@@ -77,24 +77,28 @@ pub struct Found<R> {
     pub q: Vec<f64>,
     /// The multipliers of all rows, those of stops last.
     pub multipliers: Vec<f64>,
+    /// True if the mechanism falls away from there, so that another set may have a better one.
+    pub falls: bool,
 }
 
 /// The stops that are rested on, and what is found there: none pulls, and no other gap is negative. `look` looks on a set.
 ///
-/// Sets are tried one after the other. A position behind a stop leads to the set with this stop, a stop that pulls to the set
-/// without it. Where that finds nothing, all sets are tried, from the smallest ones on. The rows of modes that hold, `held`, are
-/// in every set.
+/// Sets are tried one after the other, that of the stops which the start touches first. A position behind a stop leads to the
+/// set with this stop, a stop that pulls to the set without it. Where that finds nothing, all sets are tried, from the
+/// smallest ones on. What falls away is the result if no other set has one that does not. The rows of modes that hold, `held`,
+/// are in every set.
 ///
 /// # Errors
 /// Those of `look` without stops; [`Behind`](mbs_runtime::Error::Behind).
 pub fn complementary<R>(
     mechanism: &dyn Described<f64>,
-    (t, held): (f64, &[usize]),
+    (t, from, held): (f64, &[f64], &[usize]),
     mut look: impl FnMut(&dyn Described<f64>) -> Result<Found<R>, Error>,
 ) -> Result<(Vec<usize>, R), Error> {
     let count = mechanism.info().stops.len();
-    let (mut tried, mut first) = (BTreeSet::new(), None);
-    let mut next = Some(BTreeSet::new());
+    let (mut tried, mut first, mut falling) = (BTreeSet::new(), None, None);
+    let (at_start, size) = gaps(mechanism, t, from);
+    let mut next = Some((0..count).filter(|stop| at_start[*stop].abs() <= size).collect::<BTreeSet<_>>());
     let mut all = subsets(count, usize::try_from(mechanism.info().dof).unwrap_or(0));
     while tried.len() < MOST_SETS {
         let Some(set) = next.take().or_else(|| all.find(|set| !tried.contains(set))) else { break };
@@ -103,7 +107,10 @@ pub fn complementary<R>(
         let rows = [held, &stops].concat();
         let judged = |found| judged(mechanism, t, (&rows, &stops), found);
         match look(&Resting::new(mechanism, &rows)).and_then(judged) {
-            Ok(Verdict::Rests(result)) => return Ok((stops, result)),
+            Ok(Verdict::Rests(result, false)) => return Ok((stops, result)),
+            Ok(Verdict::Rests(result, true)) => {
+                falling.get_or_insert((stops, result));
+            }
             Ok(Verdict::Leads(changed, behind)) => {
                 first.get_or_insert(behind);
                 next = Some(changed).filter(|set| !tried.contains(set));
@@ -113,13 +120,16 @@ pub fn complementary<R>(
             }
         }
     }
+    if let Some(found) = falling {
+        return Ok(found);
+    }
     Err(first.unwrap_or(Error::NoFreedom { mechanism: mechanism.info().name }))
 }
 
 /// The verdict on a position that was found on a set of stops.
 enum Verdict<R> {
-    /// It rests there.
-    Rests(R),
+    /// It rests there; true if it falls away.
+    Rests(R, bool),
     /// It leads to another set; the error is that of a search which ends here.
     Leads(BTreeSet<usize>, Error),
 }
@@ -129,7 +139,7 @@ fn judged<R>(
     mechanism: &dyn Described<f64>,
     t: f64,
     (rows, stops): (&[usize], &[usize]),
-    Found { result, q, multipliers }: Found<R>,
+    Found { result, q, multipliers, falls }: Found<R>,
 ) -> Result<Verdict<R>, Error> {
     let (gaps, size) = gaps(mechanism, t, &q);
     let behind = |stop: usize| {
@@ -151,7 +161,7 @@ fn judged<R>(
     let others = (0..gaps.len()).filter(|stop| !stops.contains(stop));
     let worst = others.min_by(|a, b| gaps[*a].total_cmp(&gaps[*b]));
     match worst.filter(|stop| gaps[*stop] < -size) {
-        None => Ok(Verdict::Rests(result)),
+        None => Ok(Verdict::Rests(result, falls)),
         Some(stop) => {
             set.insert(stop);
             Ok(Verdict::Leads(set, behind(stop)))

@@ -97,6 +97,29 @@ fn what_falls_is_found_where_it_lies() {
     }
 }
 
+/// Regression: a block on two stops was found where it balances on one of its corners, since sets of one stop come before those
+/// of two. It stood flat at the start.
+#[test]
+fn a_block_stands_flat_and_not_on_its_corner() {
+    let text = "Block {
+        dof = 3;
+        gravity = (0, -9.81) [m/s^2];
+        body block (x, y, a) { mass = 1 [kg]; inertia = 0.01 [kg*m^2]; }
+        point l on block = (-0.1, -0.05) [m]; point r on block = (0.1, -0.05) [m];
+        stop left: block.l.y >= 0 [m] { restitution = 0; }
+        stop right: block.r.y >= 0 [m] { restitution = 0; }
+        start { y = 0.05 [m]; }
+    }";
+    let live = Text::declaration("block.mbs", text).compile().unwrap_or_else(|error| panic!("{error}"));
+    for from in [vec![0.0, 0.05, 0.0], vec![0.3, 0.5, 0.2]] {
+        let rest = equilibrium(&live, &Search { from: Some(from.clone()), ..Search::default() }).unwrap();
+        let forces: Vec<f64> = rest.rests.iter().map(|(_, force)| *force).collect();
+        assert!(forces.len() == 2 && forces.iter().all(|force| (force - 4.905).abs() < 1e-9), "{forces:?}");
+        // nothing moves it along the floor
+        assert!((rest.q[0] - from[0]).abs() < 1e-9 && rest.q[2].abs() < 1e-12, "{:?}", rest.q);
+    }
+}
+
 /// A force that drives away from a stop leaves no rest, on the stop neither. A position that touches a stop without force has
 /// two sides, and no linear system.
 #[test]

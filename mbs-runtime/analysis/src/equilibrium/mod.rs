@@ -230,8 +230,8 @@ impl From<&Equilibrium> for OperatingPoint {
 /// leads along the curved valley of a stiff spring.
 ///
 /// *Stops* that a mechanism rests on push, and no gap is negative: the search is made on the constraints and on the gaps of
-/// sets of stops, first without any, until both hold. Where several sets have an equilibrium, it is that of the set to which
-/// the search is led, or of the smallest one.
+/// sets of stops, first those that the start touches, until both hold. Where several sets have an equilibrium, it is that of
+/// the set to which the search is led, or of the smallest one from which the mechanism does not fall away.
 ///
 /// *Modes* hold as the inputs say: without inputs as they are declared. Their constraints are met where it rests, and their
 /// multipliers are found with the others.
@@ -294,10 +294,11 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     if info.stops.is_empty() && held.is_empty() {
         return on_rows(mechanism, search, DVector::from_vec(from), inputs);
     }
-    let (stops, mut found) = complementary(mechanism, (search.t, &held), |mechanism| {
+    let (stops, mut found) = complementary(mechanism, (search.t, &from, &held), |mechanism| {
         let found = on_rows(mechanism, search, DVector::from_column_slice(&from), inputs.clone())?;
         let (q, multipliers) = (found.q.clone(), found.multipliers.clone());
-        Ok(stops::Found { result: found, q, multipliers })
+        let falls = search.strategy != Strategy::Newton && matches!(found.stability(), Stability::Unstable { .. });
+        Ok(stops::Found { result: found, q, multipliers, falls })
     })?;
     meets_modes(mechanism, (search.t, &found.q), &inputs)?;
     let mut of_modes = found.multipliers.split_off(info.constraints.len());
