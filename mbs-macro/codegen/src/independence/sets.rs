@@ -14,12 +14,12 @@
 //!
 //! Ways do not see all positions of a mechanism of several degrees of freedom. A set has four rows at most, those of two pins.
 
-use super::assembly::Assembly;
+use super::assembly::{Assembly, Position};
 use super::echelon::null_vectors;
 use super::manifold::Manifold;
 use super::rows::Rows;
 use super::sparse::SparseRow;
-use super::ways;
+use super::ways::{between, ways};
 use crate::model::Model;
 
 /// A part of n that never falls below this share of its largest value stays away from 0.
@@ -31,6 +31,12 @@ const WORTH: f64 = 2.0;
 /// The most rows of a set: minors of three rows are cheap, and keep their digits.
 const LARGEST: usize = 4;
 
+/// From one position to the next n turns by less than this; a part of n that passes 0 is then seen below 0.05.
+const LARGEST_TURN: f64 = 0.1;
+
+/// Steps of a way are halved so often at most.
+const MOST_HALVINGS: u32 = 8;
+
 /// Squares of parts below this are what rounding left of 0.
 const NONE: f64 = 1e-12;
 
@@ -40,10 +46,10 @@ type Basis = Vec<Vec<f64>>;
 /// Finds the rows that are left out, and the sets.
 pub fn find(model: &Model, assembly: &Assembly<'_>, manifold: &Manifold, rows: &mut Rows) {
     let count = rows.redundant.len();
-    let positions = ways::positions(model, assembly, manifold.start());
-    let bases =
-        positions.iter().map(|at| orthonormal(null_vectors(assembly.jacobian(at).0), assembly.rows()));
-    let mut bases: Vec<Basis> = bases.filter(|basis| basis.len() == count).collect();
+    let mut bases = Vec::new();
+    for way in ways(model, assembly, manifold.start()) {
+        along(assembly, way, count, &mut bases);
+    }
     let mut sources: Vec<Vec<usize>> = Vec::new();
     for row in 0..assembly.rows() {
         let is_of = |set: &&mut Vec<usize>| model.constraints[set[0]].source == model.constraints[row].source;
@@ -79,6 +85,43 @@ pub fn find(model: &Model, assembly: &Assembly<'_>, manifold: &Manifold, rows: &
     sets.reverse();
     left_out.sort_unstable();
     (rows.left_out, rows.sets) = (left_out, sets);
+}
+
+/// The bases of all n along a way, of so many dimensions, with more positions where they turn fast.
+fn along(assembly: &Assembly<'_>, way: Vec<Position>, count: usize, bases: &mut Vec<Basis>) {
+    let basis_at = |at: &Position| {
+        Some(orthonormal(null_vectors(assembly.jacobian(at).0), assembly.rows()))
+            .filter(|basis| basis.len() == count)
+    };
+    let mut left: Vec<(Position, u32)> = way.into_iter().rev().map(|at| (at, 0)).collect();
+    let mut last: Option<(Position, Basis)> = None;
+    while let Some((next, halvings)) = left.pop() {
+        let Some(basis) = basis_at(&next) else { continue };
+        if let Some((at, before)) = &last
+            && halvings < MOST_HALVINGS
+            && turn(before, &basis) > LARGEST_TURN
+            && let Some(middle) = between(assembly, at, &next)
+        {
+            left.push((next, halvings + 1));
+            left.push((middle, halvings + 1));
+            continue;
+        }
+        bases.push(basis.clone());
+        last = Some((next, basis));
+    }
+}
+
+/// How far a space is turned out of another one, as the sine of the angle.
+fn turn(before: &Basis, after: &Basis) -> f64 {
+    let rest = |n: &Vec<f64>| {
+        let mut rest = n.clone();
+        for other in before {
+            let along: f64 = other.iter().zip(n).map(|(a, b)| a * b).sum();
+            rest.iter_mut().zip(other).for_each(|(rest, other)| *rest -= along * other);
+        }
+        rest.iter().map(|x| x * x).sum::<f64>()
+    };
+    after.iter().map(rest).fold(0.0, f64::max).sqrt()
 }
 
 /// Of every set the direction, over its rows, in which it says nothing at a position; `None` if more or fewer rows are

@@ -1,7 +1,8 @@
 //! Positions that a mechanism reaches from its start.
 //!
 //! One way leads on in the direction in which it began, with time where the mechanism is driven. Along others one coordinate
-//! moves alone, as far as the constraints let it, and those that are independent of it stay.
+//! moves alone, as far as the constraints let it, and those that are independent of it stay. Where what is looked at changes much
+//! from one position to the next, others between them are looked at.
 
 use super::assembly::{Assembly, Closing, Position};
 use super::echelon::free_columns;
@@ -18,19 +19,29 @@ const MOST: usize = 8;
 /// How much of other directions there is on a way.
 const SWERVE: f64 = 0.3;
 
-/// Positions on ways from a start where all constraints are met, and the start.
-pub fn positions(model: &Model, assembly: &Assembly<'_>, start: &Position) -> Vec<Position> {
-    let mut positions = onward(assembly, start);
+/// Ways from a start where all constraints are met.
+pub fn ways(model: &Model, assembly: &Assembly<'_>, start: &Position) -> Vec<Vec<Position>> {
+    let mut ways = vec![onward(assembly, start)];
     let independent = independent(model, assembly, start);
     for &along in independent.iter().take(MOST) {
         let forth = alone(assembly, start, &independent, along, STRIDE);
         // where it comes to an end, the rest of a turn may lie in the other direction
         if forth.len() < POSITIONS {
-            positions.extend(alone(assembly, start, &independent, along, -STRIDE));
+            ways.push(alone(assembly, start, &independent, along, -STRIDE));
         }
-        positions.extend(forth);
+        ways.push(forth);
     }
-    positions
+    ways
+}
+
+/// A position between two others of a way, if the way leads through it.
+pub fn between(assembly: &Assembly<'_>, a: &Position, b: &Position) -> Option<Position> {
+    let all: Vec<usize> = (0..assembly.rows()).collect();
+    let q = a.q.iter().zip(&b.q).map(|(a, b)| 0.5 * (a + b)).collect();
+    let closing = assembly.close(&all, &Position { q, t: 0.5 * (a.t + b.t) });
+    let apart = assembly.distance(a, b);
+    let is_between = [a, b].iter().all(|end| assembly.distance(&closing.at, end) <= apart);
+    (closing.is_closed && is_between).then_some(closing.at)
 }
 
 /// A way that leads on as it began, twice as long.
@@ -74,9 +85,8 @@ fn alone(
     stride: f64,
 ) -> Vec<Position> {
     let all: Vec<usize> = (0..assembly.rows()).collect();
-    let mut way: Vec<Position> = Vec::new();
-    while way.len() < POSITIONS {
-        let from = way.last().unwrap_or(start);
+    let mut way = vec![start.clone()];
+    while let Some(from) = way.last().filter(|_| way.len() < POSITIONS) {
         let mut guess = from.clone();
         guess.q[along] += stride * assembly.units[along];
         let closing = assembly.close_with(&all, &guess, independent);

@@ -297,7 +297,8 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
     let (stops, mut found) = complementary(mechanism, (search.t, &from, &held), |mechanism| {
         let found = on_rows(mechanism, search, DVector::from_column_slice(&from), inputs.clone())?;
         let (q, multipliers) = (found.q.clone(), found.multipliers.clone());
-        let falls = search.strategy != Strategy::Newton && matches!(found.stability(), Stability::Unstable { .. });
+        let falls =
+            search.strategy != Strategy::Newton && matches!(found.stability(), Stability::Unstable { .. });
         Ok(stops::Found { result: found, q, multipliers, falls })
     })?;
     meets_modes(mechanism, (search.t, &found.q), &inputs)?;

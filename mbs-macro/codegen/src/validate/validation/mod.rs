@@ -43,7 +43,9 @@ pub fn check_programs(
     // Redundant constraints repeat the others on Φ = 0 only.
     let assembled = (!plan.rows.redundant.is_empty()).then(|| {
         let assembly = Assembly::new(model, equations);
-        assembly.close(&plan.rows.basis, &samples.start_position(model)).at
+        // all, since those that are solved for may leave others far off where they nearly depend on each other
+        let all: Vec<usize> = (0..plan.rows.count).collect();
+        assembly.close(&all, &samples.start_position(model)).at
     });
     for position in samples.positions() {
         let sample = |symbol: Symbol| match (model.meanings.get(symbol.index()), &assembled) {
