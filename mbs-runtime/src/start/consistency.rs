@@ -14,6 +14,8 @@ use crate::{Error, Info, Real, vectors};
 /// The share of the size of a mechanism by which a start that is given may violate its
 /// constraints.
 const SHARE: f64 = 1e-3;
+/// The share of its size by which something moves while accelerations are looked at.
+const LONGEST: f64 = 0.1;
 /// Roundings of positions that a rate may amount to within a step.
 const ROUNDINGS: f64 = 1024.0;
 
@@ -112,7 +114,8 @@ fn check_rows<T: Real>(info: &Info, t: T, found: &[T], allowed: &[T], is_rate: b
 /// Refuses a start in which redundant constraints are met, but not by its accelerations:
 /// with parameters for which they fit at this instant only.
 ///
-/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind. A violation that Φ̈ causes over a
+/// Φ̈ is the difference of Φ̇ a sixteenth of a step ahead and behind, or of the time in which something moves by a tenth of its
+/// size, where that is less. A violation that Φ̈ causes over a
 /// step counts as none if it is no more than the rounding of positions: a structure at rest has
 /// accelerations that are rounding.
 pub(super) fn check_redundant_accelerations<T: Real>(
@@ -132,6 +135,10 @@ pub(super) fn check_redundant_accelerations<T: Real>(
         // the first step says why
         return Ok(());
     }
+    let mut jacobian = Jacobian::new(equations, at.t, at.q, direction, phi_t);
+    let fastest = measure(&mut jacobian, at.v, rows, rates, entries);
+    // what moves far within a step is looked at over less
+    let step = if step * fastest > number(LONGEST) { number(LONGEST) / fastest } else { step };
     let apart = number(1.0 / 16.0) * step;
     let mut rates_after = |h: T, phi_dot: &mut [T]| {
         vectors::copy(v, at.v);
@@ -146,8 +153,6 @@ pub(super) fn check_redundant_accelerations<T: Real>(
     rates_after(-apart, entries);
     vectors::zip_map(difference, entries, |ahead, behind| ahead - behind);
 
-    let mut jacobian = Jacobian::new(equations, at.t, at.q, direction, phi_t);
-    let fastest = measure(&mut jacobian, at.v, rows, rates, entries);
     vectors::zip_map(rates, rows, |motion, size| {
         let rate = motion.max(size * fastest);
         let turning = if size > zero { rate * rate / size } else { zero };

@@ -67,7 +67,7 @@ pub fn find(model: &Model, assembly: &Assembly<'_>, manifold: &Manifold, rows: &
         let alone = single.iter().map(|&row| (row, part(&bases, &[row])));
         let steadiest = alone.max_by(|a, b| a.1.steadiness().total_cmp(&b.1.steadiness()));
         let Some((row, of_row)) = steadiest else { break };
-        let set = if of_row.is_steady() { None } else { best_set(&bases, &sources, dimension) };
+        let set = if of_row.is_steady() { None } else { best_set(&bases, &sources) };
         let taken = match set.filter(|set| part(&bases, set).least > WORTH * of_row.least) {
             Some(set) => set,
             None => vec![row],
@@ -147,18 +147,20 @@ pub fn spare(jacobian: &[SparseRow<f64>], rows: &Rows) -> Option<Vec<Vec<f64>>> 
     Some(directions)
 }
 
-/// A set of which one row is spare: the rows of a joint, or, where there is one n alone, of several.
-fn best_set(bases: &[Basis], sources: &[Vec<usize>], dimension: usize) -> Option<Vec<usize>> {
+/// A set of which one row is spare: the rows of a joint, and of more joints as long as its part of n becomes steadier.
+fn best_set(bases: &[Basis], sources: &[Vec<usize>]) -> Option<Vec<usize>> {
     let steadiest = |candidates: &mut dyn Iterator<Item = Vec<usize>>| {
-        let rated = candidates.map(|set| (part(bases, &set), set));
+        let are_parallel =
+            |set: &Vec<usize>| set.len() <= LARGEST && bases.iter().all(|basis| is_one(basis, set));
+        let rated = candidates.filter(are_parallel).map(|set| (part(bases, &set), set));
         rated.max_by(|a, b| a.0.steadiness().total_cmp(&b.0.steadiness()))
     };
-    let are_parallel =
-        |set: &Vec<usize>| set.len() <= LARGEST && bases.iter().all(|basis| is_one(basis, set));
-    let (mut of_set, mut set) = steadiest(&mut sources.iter().filter(|set| are_parallel(set)).cloned())?;
-    while dimension == 1 && !of_set.is_steady() {
-        let more = sources.iter().filter(|more| !set.contains(&more[0]) && set.len() + more.len() <= LARGEST);
-        let (of_more, more) = steadiest(&mut more.map(|more| [set.as_slice(), more].concat()))?;
+    let (mut of_set, mut set) = steadiest(&mut sources.iter().cloned())?;
+    while !of_set.is_steady() {
+        let more = sources.iter().filter(|more| !set.contains(&more[0]));
+        let Some((of_more, more)) = steadiest(&mut more.map(|more| [set.as_slice(), more].concat())) else {
+            break;
+        };
         if of_more.steadiness() <= of_set.steadiness() {
             break;
         }
