@@ -229,11 +229,33 @@ impl<'a, T: Real> Contacts<'a, T> {
                 let held = those(self.stops, |row| has(active, row) && self.is_borne(row, active));
                 return Some((held, x));
             };
-            // an active one that closes all the same depends on others: it takes the place of one of them
-            let is_dependent = has(active, wrong) && number(&x, wrong) == 0.0;
-            active ^= bit(if is_dependent { self.exchanged(active, (wrong, bound), &x)? } else { wrong });
+            // one that closes with others, or although it is active, depends on them: it takes the place of one of them
+            let is_dependent = match has(active, wrong) {
+                true => number(&x, wrong) == 0.0,
+                false => self.depends(wrong, active),
+            };
+            let left = if is_dependent { bit(self.exchanged(active, (wrong, bound), &x)?) } else { 0 };
+            active = if is_dependent { (active | bit(wrong)) ^ left } else { active ^ bit(wrong) };
         }
         None
+    }
+
+    /// True if an impulse at a stop does what impulses at the active ones can do.
+    fn depends(&self, stop: usize, active: u32) -> bool {
+        let shares = self.shares(active, stop);
+        let own = self.slid_mobility(stop, stop).to_f64();
+        let of_others = |by: usize| self.slid_mobility(stop, by).to_f64() * number(&shares, by);
+        let rest = (0..self.stops).filter(|by| has(active, *by)).fold(own, |rest, by| rest - of_others(by));
+        rest <= share::<T>(DEPENDENT) * own
+    }
+
+    /// The impulses at active stops that do what a unit impulse at another one does, as far as they can.
+    fn shares(&self, active: u32, by: usize) -> Each<T> {
+        let column =
+            core::array::from_fn(
+                |of| if of < self.stops { -self.slid_mobility(of, by) } else { T::default() },
+            );
+        self.solve(active & !bit(by), &column)
     }
 
     /// The stops of a set that others of it and what is `bound` keep closed: no impulses open them.
@@ -248,11 +270,7 @@ impl<'a, T: Real> Contacts<'a, T> {
 
     /// The first active stop whose impulse becomes 0 where that of one grows that depends on them.
     fn exchanged(&self, active: u32, (by, bound): (usize, u32), x: &Each<T>) -> Option<usize> {
-        let column =
-            core::array::from_fn(
-                |of| if of < self.stops { -self.slid_mobility(of, by) } else { T::default() },
-            );
-        let shares = self.solve(active & !bit(by), &column);
+        let shares = self.shares(active, by);
         let ratio = |stop: usize| number(x, stop) / number(&shares, stop);
         let is_shrinking =
             |stop: &usize| !has(bound, *stop) && number(&shares, *stop) > share::<T>(DEPENDENT);

@@ -116,16 +116,39 @@ static int NAME_least_wrong(const real *contacts, const int *set, const int *act
     return -1;
 }
 
-/* The first active stop whose impulse becomes 0 where that of one grows that depends on them; -1 where there is none. */
-static int NAME_exchanged(const real *contacts, const int *active, int by, const int *bound, const real *x)
+/* The impulses at active stops that do what a unit impulse at another one does, as far as they can. */
+static void NAME_shares(const real *contacts, const int *active, int by, real *shares)
 {
-    real column[CAPS_ROWS], shares[CAPS_ROWS];
-    int others[CAPS_ROWS], first = -1;
+    real column[CAPS_ROWS];
+    int others[CAPS_ROWS];
     for (int stop = 0; stop < CAPS_ROWS; stop++) {
         column[stop] = -NAME_mobility(contacts, stop, by);
         others[stop] = active[stop] && stop != by;
     }
     NAME_solve_at_stops(contacts, others, column, shares);
+}
+
+/* True if an impulse at a stop does what impulses at the active ones can do. */
+static int NAME_depends(const real *contacts, int stop, const int *active)
+{
+    real shares[CAPS_ROWS];
+    const double own = (double)NAME_mobility(contacts, stop, stop);
+    double rest = own;
+    NAME_shares(contacts, active, stop, shares);
+    for (int by = 0; by < CAPS_ROWS; by++) {
+        if (active[by]) {
+            rest = rest - (double)NAME_mobility(contacts, stop, by) * (double)shares[by];
+        }
+    }
+    return rest <= NAME_rounding(1e-10) * own;
+}
+
+/* The first active stop whose impulse becomes 0 where that of one grows that depends on them; -1 where there is none. */
+static int NAME_exchanged(const real *contacts, const int *active, int by, const int *bound, const real *x)
+{
+    real shares[CAPS_ROWS];
+    int first = -1;
+    NAME_shares(contacts, active, by, shares);
     for (int stop = 0; stop < CAPS_ROWS; stop++) {
         if (!bound[stop] && (double)shares[stop] > NAME_rounding(1e-10)
             && (first < 0
@@ -155,12 +178,14 @@ static int NAME_complementary(const real *contacts, const int *set, const int *b
         if (wrong < 0) {
             return 1;
         }
-        /* an active one that closes all the same depends on others: it takes the place of one of them */
-        if (active[wrong] && x[wrong] == 0) {
-            wrong = NAME_exchanged(contacts, active, wrong, bound, x);
-        }
-        if (wrong < 0) {
-            return 0;
+        /* one that closes with others, or although it is active, depends on them: it takes the place of one of them */
+        if (active[wrong] ? x[wrong] == 0 : NAME_depends(contacts, wrong, active)) {
+            const int left = NAME_exchanged(contacts, active, wrong, bound, x);
+            if (left < 0) {
+                return 0;
+            }
+            active[wrong] = 1;
+            wrong = left;
         }
         active[wrong] = !active[wrong];
     }

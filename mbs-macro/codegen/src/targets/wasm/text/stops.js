@@ -86,9 +86,21 @@ class AtStops extends Modes {
     });
   }
 
+  // The impulses at active stops that do what a unit impulse at another one does, as far as they can.
+  shares(active, by) {
+    return this.solveAtStops(active.map((it, stop) => it && stop !== by), this.each((of) => -this.mobility(of, by)));
+  }
+
+  // True if an impulse at a stop does what impulses at the active ones can do.
+  depends(stop, active) {
+    const shares = this.shares(active, stop), own = this.mobility(stop, stop);
+    const rest = active.reduce((rest, it, by) => (it ? rest - this.mobility(stop, by) * shares[by] : rest), own);
+    return rest <= 1e-10 * own;
+  }
+
   // The first active stop whose impulse becomes 0 where that of one grows that depends on them; -1 where there is none.
   exchanged(active, by, bound, x) {
-    const shares = this.solveAtStops(active.map((it, stop) => it && stop !== by), this.each((of) => -this.mobility(of, by)));
+    const shares = this.shares(active, by);
     return shares.reduce((first, share, stop) => {
       const isFirst = !bound[stop] && share > 1e-10 && (first < 0 || x[stop] / share < x[first] / shares[first]);
       return isFirst ? stop : first;
@@ -105,9 +117,13 @@ class AtStops extends Modes {
       const x = this.solveAtStops(active, b);
       let wrong = this.leastWrong(open, active, b, x);
       if (wrong < 0) return x;
-      // an active one that closes all the same depends on others: it takes the place of one of them
-      if (active[wrong] && x[wrong] === 0) wrong = this.exchanged(active, wrong, bound, x);
-      if (wrong < 0) break;
+      // one that closes with others, or although it is active, depends on them: it takes the place of one of them
+      if (active[wrong] ? x[wrong] === 0 : this.depends(wrong, active)) {
+        const left = this.exchanged(active, wrong, bound, x);
+        if (left < 0) break;
+        active[wrong] = true;
+        wrong = left;
+      }
       active[wrong] = !active[wrong];
     }
     return null;
