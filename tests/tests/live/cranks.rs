@@ -47,7 +47,7 @@ fn cranks(number: u64) -> Cranks {
     while !joints.is_empty() {
         text += &joints.swap_remove(random.below(joints.len()));
     }
-    let states = random.of(&["full", "reduced"]);
+    let states = random.of(&["all", "reduced"]);
     let [x, y] = [r * start.cos(), r * start.sin()];
     let text = format!(
         "Cranks {{ dof = 1; states = {states}; redundant = minimum_norm; gravity = (0, -9.81) [m/s^2];
