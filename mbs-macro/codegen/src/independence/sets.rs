@@ -67,7 +67,7 @@ pub fn find(model: &Model, assembly: &Assembly<'_>, manifold: &Manifold, rows: &
         let alone = single.iter().map(|&row| (row, part(&bases, &[row])));
         let steadiest = alone.max_by(|a, b| a.1.steadiness().total_cmp(&b.1.steadiness()));
         let Some((row, of_row)) = steadiest else { break };
-        let set = if of_row.is_steady() { None } else { best_set(&bases, &sources) };
+        let set = if of_row.is_steady() { None } else { best_set(&bases, &sources, &single) };
         let taken = match set.filter(|set| part(&bases, set).least > WORTH * of_row.least) {
             Some(set) => set,
             None => vec![row],
@@ -147,24 +147,42 @@ pub fn spare(jacobian: &[SparseRow<f64>], rows: &Rows) -> Option<Vec<Vec<f64>>> 
     Some(directions)
 }
 
-/// A set of which one row is spare: the rows of a joint, and of more joints as long as its part of n becomes steadier.
-fn best_set(bases: &[Basis], sources: &[Vec<usize>]) -> Option<Vec<usize>> {
-    let steadiest = |candidates: &mut dyn Iterator<Item = Vec<usize>>| {
-        let are_parallel =
-            |set: &Vec<usize>| set.len() <= LARGEST && bases.iter().all(|basis| is_one(basis, set));
-        let rated = candidates.filter(are_parallel).map(|set| (part(bases, &set), set));
-        rated.max_by(|a, b| a.0.steadiness().total_cmp(&b.0.steadiness()))
+/// A set of which one row is spare: the rows of a joint, and of more joints as long as its part of n becomes steadier. It begins
+/// with a redundant row if it can: what is spare is often a light link, which answers alone best.
+fn best_set(bases: &[Basis], sources: &[Vec<usize>], redundant: &[usize]) -> Option<Vec<usize>> {
+    let is_of = |source: &&Vec<usize>| source.iter().any(|row| redundant.contains(row));
+    let grown = |set: &Vec<usize>| grown(bases, sources, set.clone());
+    let of_redundant = steadiest(bases, &mut sources.iter().filter(is_of).filter_map(grown));
+    let found = match of_redundant.filter(|(part, _)| part.is_steady()) {
+        Some(found) => Some(found),
+        None => steadiest(bases, &mut sources.iter().cloned())
+            .and_then(|(_, set)| grown(&set))
+            .map(|set| (part(bases, &set), set)),
     };
-    let (mut of_set, mut set) = steadiest(&mut sources.iter().cloned())?;
+    found.map(|(_, set)| set)
+}
+
+/// The steadiest of sets of which one row is spare.
+fn steadiest(
+    bases: &[Basis],
+    candidates: &mut dyn Iterator<Item = Vec<usize>>,
+) -> Option<(Part, Vec<usize>)> {
+    let is_one_spare =
+        |set: &Vec<usize>| set.len() <= LARGEST && bases.iter().all(|basis| is_one(basis, set));
+    let rated = candidates.filter(is_one_spare).map(|set| (part(bases, &set), set));
+    rated.max_by(|a, b| a.0.steadiness().total_cmp(&b.0.steadiness()))
+}
+
+/// A set with the rows of more joints, as long as it becomes steadier.
+fn grown(bases: &[Basis], sources: &[Vec<usize>], set: Vec<usize>) -> Option<Vec<usize>> {
+    let (mut of_set, mut set) = steadiest(bases, &mut std::iter::once(set))?;
     while !of_set.is_steady() {
         let more = sources.iter().filter(|more| !set.contains(&more[0]));
-        let Some((of_more, more)) = steadiest(&mut more.map(|more| [set.as_slice(), more].concat())) else {
-            break;
-        };
-        if of_more.steadiness() <= of_set.steadiness() {
-            break;
+        let more = steadiest(bases, &mut more.map(|more| [set.as_slice(), more].concat()));
+        match more.filter(|(of_more, _)| of_more.steadiness() > of_set.steadiness()) {
+            Some(more) => (of_set, set) = more,
+            None => break,
         }
-        (of_set, set) = (of_more, more);
     }
     set.sort_unstable();
     Some(set)
