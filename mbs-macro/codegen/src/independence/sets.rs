@@ -111,7 +111,7 @@ fn along(assembly: &Assembly<'_>, way: Vec<Position>, count: usize, bases: &mut 
     }
 }
 
-/// How far a space is turned out of another one, as the sine of the angle.
+/// The sine of the angle by which a space is turned out of another one.
 fn turn(before: &Basis, after: &Basis) -> f64 {
     let rest = |n: &Vec<f64>| {
         let mut rest = n.clone();
@@ -188,7 +188,7 @@ fn grown(bases: &[Basis], sources: &[Vec<usize>], set: Vec<usize>) -> Option<Vec
     Some(set)
 }
 
-/// How large the part of n on some rows is over all positions.
+/// The size of the part of n on some rows, over all positions.
 #[derive(Clone, Copy)]
 struct Part {
     least: f64,

@@ -16,7 +16,7 @@ const POSITIONS: usize = 24;
 /// Ways along which one coordinate moves, for mechanisms of many degrees of freedom.
 const MOST: usize = 8;
 
-/// How much of other directions there is on a way.
+/// The share of other directions on a way.
 const SWERVE: f64 = 0.3;
 
 /// Ways from a start where all constraints are met.
