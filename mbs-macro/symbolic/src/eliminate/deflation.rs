@@ -93,13 +93,11 @@ fn squared(arena: &mut Arena, matrix: &[Vec<Expr>], size: Expr) -> Vec<Vec<Expr>
 fn adjugate(arena: &mut Arena, matrix: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
     let size = matrix.len();
     let mut cofactors = vec![vec![arena.zero(); size]; size];
-    for i in 0..size {
-        for j in i..size {
-            let without = |skipped: usize| (0..size).filter(|at| *at != skipped).collect::<Vec<_>>();
-            let minor = determinant(arena, matrix, &without(i), &without(j));
-            let cofactor = if (i + j) % 2 == 0 { minor } else { arena.neg(minor) };
-            (cofactors[i][j], cofactors[j][i]) = (cofactor, cofactor);
-        }
+    for (i, j) in (0..size).flat_map(|i| (i..size).map(move |j| (i, j))) {
+        let without = |skipped: usize| (0..size).filter(|at| *at != skipped).collect::<Vec<_>>();
+        let minor = determinant(arena, matrix, &without(i), &without(j));
+        let cofactor = if (i + j) % 2 == 0 { minor } else { arena.neg(minor) };
+        (cofactors[i][j], cofactors[j][i]) = (cofactor, cofactor);
     }
     cofactors
 }
