@@ -68,9 +68,8 @@ fn random_cranks_turn_on_and_on() -> Result<(), Error> {
         let live = Text::declaration("cranks.mbs", text.as_str()).compile().expect("cranks");
         let run = Adaptive::builder(Prepared::new(&live)).tolerances(TOLERANCES).build()?;
         let mut run = Sampled::new(run, 6.0 * PI / rate)?;
-        run.advance(1).map_err(|error| {
+        run.advance(1).inspect_err(|_| {
             println!("{number}: {text}");
-            error
         })?;
         let info = live.declared_info();
         let (mut q, mut v) = (vec![0.0; info.coordinates.len()], vec![0.0; info.coordinates.len()]);
