@@ -39,8 +39,8 @@ pub struct Info {
     pub constraints: &'static [Constraint],
     /// Which coordinates are integrated, as indices; constraints give the others.
     pub states: &'static [usize],
-    /// Which constraints are met with others, as indices, and are watched: those that repeat others, and then those
-    /// that take turns with them.
+    /// The constraints that are met with others, as indices, and are watched: those that repeat others, and then
+    /// those that take turns with them.
     pub redundant: &'static [usize],
     /// Along which coordinates forces act that depend on velocities or on reactions, as indices:
     /// dampers, friction. All other forces are functions of positions, time, inputs and parameters.

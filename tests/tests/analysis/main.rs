@@ -1,4 +1,4 @@
-//! Where mechanisms rest, how they vibrate, and what motions take.
+//! Rests of mechanisms, their vibrations, and the forces that motions take.
 
 // first, since others use its macro
 #[macro_use]

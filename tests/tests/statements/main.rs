@@ -1,4 +1,4 @@
-//! What a declaration may say, one module a kind of statement: its values, its motions, and what refuses it.
+//! Statements of a declaration, one module a kind: their values, their motions, and mistakes in them.
 
 mod choices;
 mod clocks;

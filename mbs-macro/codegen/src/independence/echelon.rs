@@ -48,7 +48,7 @@ pub fn row_echelon_within(rows: Vec<SparseRow<f64>>, tolerance: f64) -> Echelon 
     }
 }
 
-/// What is left of a row that others explain, at positions that are closed to 1e-10.
+/// The rest of a row that others explain, at positions that are closed to 1e-10.
 const EXPLAINED: f64 = 1e-6;
 
 /// Factors of rows with which they sum to 0, as many as rows depend on others.

@@ -1,4 +1,4 @@
-//! Which rows are left out where some repeat others, and sets of rows of which one is spare in every position.
+//! Rows that are left out because they repeat others, and sets of rows of which one is spare in every position.
 //!
 //! Rows repeat each other where Σ nᵣ Φ_q,ᵣ = 0. A row may be left out if its nᵣ is not 0. Where n changes with the
 //! position, that of a row may vanish: the others then depend on each other, and a motion would end there. So a set of
