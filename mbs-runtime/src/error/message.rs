@@ -216,8 +216,8 @@ impl fmt::Display for Error {
                 if has_redundant && !constraint.is_empty() {
                     write!(
                         f,
-                        "; which of the constraints that repeat each other are left out was decided along a way from the \
-                         start: if others lead on here, declare those first"
+                        "; constraints repeat each other, and the compiler chose what is left out by following the mechanism \
+                         from its start: if others hold it here, declare those first"
                     )?;
                 }
                 Ok(())

@@ -81,7 +81,7 @@ fn no_rates(model: &Model, manifold: &Manifold) -> Result<(), Diagnostic> {
 }
 
 /// Redundant drives keep in step with the others: what closes at t = 0 also
-/// closes later, all together, since those that are solved for may leave a way of their own where they depend on each other.
+/// closes later. All rows are closed together: those that are solved for may depend on each other on the way.
 fn fits_in_time(
     model: &Model,
     assembly: &Assembly<'_>,

@@ -28,8 +28,8 @@ impl Rows {
         (0..self.count).filter(|row| !self.left_out.contains(row))
     }
 
-    /// The rows that may be violated although the elimination has its solution: those that are redundant, and then the
-    /// others of sets.
+    /// The rows that runs watch, as an elimination does not meet them by itself: the redundant ones, then the others of
+    /// sets.
     pub fn watched(&self) -> Vec<usize> {
         let of_sets = self.sets.iter().flatten().filter(|row| !self.redundant.contains(row));
         self.redundant.iter().chain(of_sets).copied().collect()

@@ -1,18 +1,20 @@
 //! Rows that are left out because they repeat others, and sets of rows of which one is spare in every position.
 //!
-//! Rows repeat each other where Σ nᵣ Φ_q,ᵣ = 0. A row may be left out if its nᵣ is not 0. Where n changes with the
-//! position, that of a row may vanish: the others then depend on each other, and a motion would end there. So a set of
-//! rows is looked for whose parts of n never vanish together. The elimination takes all rows of a set and finds
-//! what is spare among them (`eliminate/deflation.rs` in mbs-symbolic).
+//! Rows repeat each other where Φ_q has a left null vector, Φ_qᵀ n = 0. A row may be left out while its entry of n is not 0.
+//! Entries change with the position, and one that vanishes ends a motion: the other rows depend on each other there. So a
+//! set of rows is looked for whose entries never vanish together. The elimination takes all rows of a set, and finds the
+//! spare one among them (`eliminate/deflation.rs` in mbs-symbolic).
 //!
 //! # How it works
 //!
-//! Along ways from the start (`ways`) all n are computed, an orthonormal basis of them at each position. A row or a set takes
-//! one dimension away: what is left are the n that are 0 on it. The one that is taken first is eliminated last.
+//! `ways` leads along ways from the start. At each position an orthonormal basis of the null vectors is computed. A row, or a
+//! set, takes one dimension of it away: the null vectors that are 0 on its rows are left. The first one that is taken is
+//! eliminated last.
 //!
 //! # Limits
 //!
-//! Ways do not see all positions of a mechanism of several degrees of freedom. A set has four rows at most, those of two pins.
+//! A mechanism of several degrees of freedom has positions that no way leads to. A set has four rows at most, those of two
+//! pins.
 
 use super::assembly::{Assembly, Position};
 use super::echelon::null_vectors;
@@ -22,25 +24,25 @@ use super::sparse::SparseRow;
 use super::ways::{between, ways};
 use crate::model::Model;
 
-/// A part of n that never falls below this share of its largest value stays away from 0.
+/// Entries of null vectors stay away from 0 if they never fall below this share of their largest size.
 const STEADY: f64 = 0.3;
 
-/// A set is worth its operations if its part of n stays this much larger than that of a row alone.
+/// A set is worth its operations if its entries stay so many times larger than that of a row alone.
 const WORTH: f64 = 2.0;
 
 /// The most rows of a set: minors of three rows are cheap, and keep their digits.
 const LARGEST: usize = 4;
 
-/// From one position to the next n turns by less than this; a part of n that passes 0 is then seen below 0.05.
+/// Null vectors turn by less than this from one position to the next. An entry that passes 0 is seen below half of it.
 const LARGEST_TURN: f64 = 0.1;
 
 /// Steps of a way are halved so often at most.
 const MOST_HALVINGS: u32 = 8;
 
-/// Squares of parts below this are what rounding left of 0.
+/// The square of an entry that rounding left of 0 is below this.
 const NONE: f64 = 1e-12;
 
-/// An orthonormal basis of all n at a position.
+/// An orthonormal basis of the left null vectors of Φ_q at a position.
 type Basis = Vec<Vec<f64>>;
 
 /// Finds the rows that are left out, and the sets.
@@ -87,7 +89,7 @@ pub fn find(model: &Model, assembly: &Assembly<'_>, manifold: &Manifold, rows: &
     (rows.left_out, rows.sets) = (left_out, sets);
 }
 
-/// The bases of all n along a way, of so many dimensions, with more positions where they turn fast.
+/// Bases of so many null vectors along a way. Where they turn fast, positions between those of the way are added.
 fn along(assembly: &Assembly<'_>, way: Vec<Position>, count: usize, bases: &mut Vec<Basis>) {
     let basis_at = |at: &Position| {
         Some(orthonormal(null_vectors(assembly.jacobian(at).0), assembly.rows()))
@@ -124,8 +126,7 @@ fn turn(before: &Basis, after: &Basis) -> f64 {
     after.iter().map(rest).fold(0.0, f64::max).sqrt()
 }
 
-/// Of every set the direction, over its rows, in which it says nothing at a position; `None` if more or fewer rows are
-/// spare there.
+/// The entries of a null vector on the rows of every set, of size 1; `None` if more or fewer rows are spare at the position.
 pub fn spare(jacobian: &[SparseRow<f64>], rows: &Rows) -> Option<Vec<Vec<f64>>> {
     let taken: Vec<usize> = rows.eliminated().collect();
     let vectors = null_vectors(taken.iter().map(|&row| jacobian[row].clone()).collect());
@@ -147,8 +148,8 @@ pub fn spare(jacobian: &[SparseRow<f64>], rows: &Rows) -> Option<Vec<Vec<f64>>> 
     Some(directions)
 }
 
-/// A set of which one row is spare: the rows of a joint, and of more joints as long as its part of n becomes steadier. It begins
-/// with a redundant row if it can: what is spare is often a light link, which answers alone best.
+/// A set of which one row is spare: the rows of a joint, and those of others as long as the set becomes steadier. It begins
+/// with a redundant row if it can. A spare link is often light, and a set of its own two rows keeps all digits.
 fn best_set(bases: &[Basis], sources: &[Vec<usize>], redundant: &[usize]) -> Option<Vec<usize>> {
     let is_of = |source: &&Vec<usize>| source.iter().any(|row| redundant.contains(row));
     let grown = |set: &Vec<usize>| grown(bases, sources, set.clone());
@@ -188,7 +189,7 @@ fn grown(bases: &[Basis], sources: &[Vec<usize>], set: Vec<usize>) -> Option<Vec
     Some(set)
 }
 
-/// The size of the part of n on some rows, over all positions.
+/// The size of the entries of null vectors on some rows, over all positions.
 #[derive(Clone, Copy)]
 struct Part {
     least: f64,
@@ -214,19 +215,19 @@ fn part(bases: &[Basis], rows: &[usize]) -> Part {
     )
 }
 
-/// True if all n have parallel parts on these rows, so that one of them is spare and not two.
+/// True if one of these rows is spare and not two: the entries of all null vectors are parallel on them.
 fn is_one(basis: &Basis, rows: &[usize]) -> bool {
     let dot = |a: usize, b: usize| basis.iter().map(|n| n[a] * n[b]).sum::<f64>();
     rows.iter().all(|&a| rows.iter().all(|&b| dot(a, a) * dot(b, b) - dot(a, b).powi(2) < NONE))
 }
 
-/// The row on which the n are largest.
+/// The row on which the null vectors are largest.
 fn largest(basis: &Basis, rows: &[usize]) -> Option<usize> {
     let square = |row: usize| basis.iter().map(|n| n[row].powi(2)).sum::<f64>();
     rows.iter().copied().max_by(|&a, &b| square(a).total_cmp(&square(b)))
 }
 
-/// Keeps the n that are 0 on these rows, on which all have parallel parts.
+/// Keeps the null vectors that are 0 on these rows, of which one is spare.
 fn restrict(basis: &mut Basis, rows: &[usize]) {
     let Some(row) = largest(basis, rows) else { return };
     let along: Vec<f64> = basis.iter().map(|n| n[row]).collect();

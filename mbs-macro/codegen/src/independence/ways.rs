@@ -1,8 +1,8 @@
 //! Positions that a mechanism reaches from its start.
 //!
-//! One way leads on in the direction in which it began, with time where the mechanism is driven. Along others one coordinate
-//! moves alone, as far as the constraints let it, and those that are independent of it stay. Where what is looked at changes much
-//! from one position to the next, others between them are looked at.
+//! One way leads on in the direction in which it began, with time where the mechanism is driven. On each other way one
+//! coordinate moves as far as the constraints let it, and the coordinates that are independent of it stay. `between` gives a
+//! position in the middle of two.
 
 use super::assembly::{Assembly, Closing, Position};
 use super::echelon::free_columns;

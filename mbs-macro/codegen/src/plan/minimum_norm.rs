@@ -5,8 +5,8 @@
 //! force those of least norm have no part along any n. The vectors n are made orthogonal one after the other
 //! (Gram and Schmidt), and the part along each is taken away.
 //!
-//! Of a set of which one row is spare (`independence/sets.rs`) every row gives such a vector, a multiple of the same n
-//! that may vanish. Together they do not, and the part along n is Σ g (g·λ) / Σ g·g over all of them.
+//! In a set one row is spare (`independence/sets.rs`), and every row gives a multiple g of the same n. One multiple may
+//! vanish, but not all. The part along n is Σ g (g·λ) / Σ g·g over all of them.
 //!
 //! The solutions for c come from the factorization of the step. The redundant rows themselves are watched by
 //! the runtime (`spare.rs`).

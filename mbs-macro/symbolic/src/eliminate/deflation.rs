@@ -1,18 +1,18 @@
 //! Rows of which one is spare, but not the same one in every position.
 //!
-//! A rod on three parallel cranks is held once too often. No choice of a row to leave out lasts for a turn:
-//! each says nothing of its own in some position of the cranks.
+//! A rod on three parallel cranks is held once too often. No row can be left out for a whole turn, since each says
+//! nothing of its own in some position of the cranks.
 //!
-//! Behind all other pivots the matrix K over m such rows has rank m − 1 and is semidefinite, with K n = 0. In place of K
+//! Such rows are eliminated last. The matrix K over m of them is then semidefinite of rank m − 1, with K n = 0. In its place
 //!
 //! K + (tr K) c cᵀ
 //!
-//! is eliminated (deflation, Wielandt 1944). From n·b = 0 follows c·λ = 0, so that it has a solution of K λ = b, and is
-//! regular, for any c that is not normal to n. What rounding leaves of b along n moves nothing.
+//! is eliminated (deflation, Wielandt 1944). It is regular for every c that is not normal to n. A right-hand side b of K has
+//! n·b = 0, and so the solution λ has c·λ = 0 and K λ = b. Rounding leaves a part of b along n, which moves nothing.
 //!
-//! The adjugate of K is a multiple of n nᵀ, so P = adj K / tr adj K is such a c cᵀ, without a choice and without a root. But
-//! its minors cancel: where the other eigenvalues of K are s₁ ≥ s₂ ≥ s₃, it is off a matrix of rank 1 by ε s₁²/(s₂ s₃). Squared
-//! twice it is so by the fourth power of that. Of two rows K + (tr K) P is tr K, to the digit.
+//! The adjugate of K is a multiple of n nᵀ. So c cᵀ = adj K / tr adj K needs neither a choice nor a root. The minors cancel:
+//! with the other eigenvalues s₁ ≥ s₂ ≥ s₃ of K they are known to ε s₁²/(s₂ s₃). The matrix is squared twice, so that it is of
+//! rank 1 to the fourth power of that. Of two rows nothing is squared: there K + (tr K) c cᵀ is tr K times 1.
 
 use super::factorization::Work;
 use super::matrix::Unknown;

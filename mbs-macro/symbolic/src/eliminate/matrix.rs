@@ -50,8 +50,8 @@ impl Kkt {
         self.angles.insert(Unknown::Coordinate(coordinate));
     }
 
-    /// Declares that of these rows one is spare beside all rows but those of later sets, in some position this one, in
-    /// another that.
+    /// Declares a set of rows of which one is spare, not the same one in every position. Rows of later sets are not
+    /// counted on.
     pub fn mark_set(&mut self, rows: &[usize]) {
         self.sets.push(rows.iter().copied().map(Unknown::Row).collect());
     }
