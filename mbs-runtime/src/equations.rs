@@ -10,7 +10,7 @@
 
 pub use crate::described::Described;
 pub use crate::differentiable::{Differentiable, Differentiated, PARTIALS, Partials};
-pub use crate::moreau::{Vectors, begin as begin_at_stops, push, strike};
+pub use crate::moreau::{Pushed, Vectors, begin as begin_at_stops, push, strike};
 pub use crate::pressing::{are_independent, lean, press};
 pub use crate::reach::reach;
 pub use crate::room::Room;

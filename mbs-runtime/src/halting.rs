@@ -2,7 +2,8 @@
 //!
 //! In a step friction that slides acts with the force −L d in its direction d. Where its speed has changed its sign at the
 //! end of a step, after the part s, the rest of the step is made good by an impulse Λ: the one that halts it, if with it the
-//! force in the rest is at most L₀; else the one of a force L that brakes the way back.
+//! force in the rest is at most L₀; else the one of a force L that brakes the way back. A speed that is 0 at the end was
+//! halted by others, such as stops: s is 0.
 //!
 //! ```text
 //! W Λ + ṡ = 0,  |Λ| ≤ (1 − s) h (L + L₀),   or   |Λ| = 2 (1 − s) h L
@@ -14,13 +15,16 @@
 //! [`moreau`](crate::moreau).
 
 use crate::changes::Changes;
-use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number};
+use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share};
 use crate::equations::{At, Equations};
 use crate::locks::{locked, placed};
 use crate::mechanism::growth_limit;
 use crate::pressing::{held, pressed};
 use crate::sticking::{Limits, direction, free_frictions, frictions, hold, holding, loose, set, unanswered};
 use crate::{Error, Info, Real, rubbing, vectors};
+
+/// A speed is 0 below this share of that at the start of a step.
+const ROUNDING: f64 = 1e-12;
 
 /// Frictions at the end of a step.
 struct Halting<T> {
@@ -60,9 +64,10 @@ pub(crate) fn halt<T: Real>(
         return Ok(false);
     }
     let now = Gaps::of(equations, At { t, q, v }, changes.still);
+    let was = Gaps::of(equations, before, changes.still);
     let rates = now.rate;
     let memory = |row: usize| (direction(info, inputs, row), holding(info, inputs, row));
-    let crossed = crossing(info, &rates, memory);
+    let crossed = crossing(info, [&was.rate, &rates], memory);
     let has_acted = (pushed & friction) | crossed | locked != 0;
     if has_acted {
         let placed = placed(info, locked);
@@ -73,7 +78,6 @@ pub(crate) fn halt<T: Real>(
         let (_, forces) = pressed(equations, at, inputs, changes.q, Some(&mut *changes.rows));
         let limits = Limits::of(equations, at, inputs, ([changes.q, changes.rows], &forces));
         let slides = rubbing::sliding(equations, inputs);
-        let was = Gaps::of(equations, before, changes.still);
         vectors::fill(changes.q, T::ZERO);
         vectors::fill(changes.v, T::ZERO);
         let answered = Contacts::at(equations, (t, q), |contacts| {
@@ -103,10 +107,14 @@ pub(crate) fn halt<T: Real>(
     Ok(has_acted)
 }
 
-/// The frictions that go against the directions in which they slid.
-fn crossing<T: Real>(info: &Info, rates: &Each<T>, memory: impl Fn(usize) -> (f64, T)) -> u32 {
+/// The frictions that slid and have come to a halt, or go against the directions in which they slid.
+fn crossing<T: Real>(info: &Info, [was, rates]: [&Each<T>; 2], memory: impl Fn(usize) -> (f64, T)) -> u32 {
     let free = frictions(info).filter(|(row, _)| has(free_frictions(info), *row));
-    let crossed = free.filter(|(row, _)| memory(*row).0 * number(rates, *row) < 0.0);
+    let crossed = free.filter(|(row, _)| {
+        let (direction, _) = memory(*row);
+        let none = share::<T>(ROUNDING) * number(was, *row).abs();
+        direction != 0.0 && direction * number(rates, *row) <= none
+    });
     crossed.fold(0, |set, (row, _)| set | bit(row))
 }
 
@@ -126,7 +134,7 @@ impl<T: Real> Halting<T> {
             let impulses = halting.impulses(contacts, resting, rates)?;
             let changes = contacts.rates(&impulses);
             let after = core::array::from_fn(|row| of(rates, row) + of(&changes, row));
-            let late = crossing(info, &after, memory) & !halting.all;
+            let late = crossing(info, [was, &after], memory) & !halting.all;
             if late == 0 {
                 return Some((halting, impulses));
             }
@@ -154,8 +162,8 @@ impl<T: Real> Halting<T> {
             let (direction, held) = memory(row);
             let [given, most, loose, shift] = if has(crossed, row) {
                 let (from, to) = (of(was, row), of(rates, row));
-                let has_come = direction * from.to_f64() > 0.0;
-                let rest = if has_come { one - from / (from - to) } else { one };
+                let has_turned = direction * from.to_f64() > 0.0 && direction * to.to_f64() < 0.0;
+                let rest = if has_turned { one - from / (from - to) } else { one };
                 let rest = rest * h;
                 [T::ZERO, rest * (sliding + sticking), rest * (sliding + sliding), half * rest]
             } else {

@@ -14,7 +14,8 @@
 //! made 0 by the shortest way by masses.
 //!
 //! Where a stop is rested on at the start of a step, half of the impulse of its force acts before the step and half of it
-//! behind (a symmetric splitting): between, velocities are those of the rest on average, and nothing moves.
+//! behind (a symmetric splitting): between, velocities are those of the rest on average, and nothing moves. An impact at such
+//! a stop is what the second half leaves over, so that a floor may speed up, and one that begins to move throws.
 //!
 //! # Source
 //! J. J. Moreau (1988), Unilateral contact and dry friction in finite freedom dynamics; M. Jean, Comput. Methods Appl. Mech.
@@ -33,8 +34,25 @@ use crate::striking::{Answer, Ends, Striking, of, zip};
 pub use crate::touching::begin;
 use crate::{Error, Real, touching, vectors};
 
+/// What pushes before a step: the stops that do and the frictions that stick, and half of the impulses of rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Pushed<T> {
+    pub(crate) set: u32,
+    pub(crate) halves: Each<T>,
+}
+
+impl<T: Real> Pushed<T> {
+    /// Nothing pushes.
+    pub(crate) const NONE: Self = Self { set: 0, halves: [T::ZERO; MOST_CONTACTS] };
+
+    /// True if velocities have changed.
+    pub fn is_any(&self) -> bool {
+        self.set != 0
+    }
+}
+
 /// Adds half of the impulses of rest over a step of `h` seconds to the velocities at its start, and sets the memories of
-/// frictions that break loose. Gives the stops that push and the frictions that stick.
+/// frictions that break loose.
 ///
 /// # Errors
 /// [`Error::Impact`], [`Error::Jammed`].
@@ -43,10 +61,10 @@ pub fn push<T: Real>(
     (h, changes): (T, Changes<'_, T>),
     (t, q, v): (T, &[T], &mut [T]),
     inputs: &mut [T],
-) -> Result<u32, Error> {
+) -> Result<Pushed<T>, Error> {
     let (info, held) = (equations.info(), held(equations, inputs));
     if held == 0 {
-        return Ok(0);
+        return Ok(Pushed::NONE);
     }
     let Changes { still, rows, q: of_q, v: of_v } = changes;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: of_v };
@@ -57,9 +75,11 @@ pub fn push<T: Real>(
     // what rubs on stops that are left does not stick in the step
     let still = held & still;
     let half = T::from_f64(0.5) * h;
-    Contacts::at(equations, (t, q), |contacts| contacts.add(&forces.map(|force| half * force), v));
+    let halves = forces.map(|force| half * force);
+    Contacts::at(equations, (t, q), |contacts| contacts.add(&halves, v));
     let holds = held & (still | locked(info, inputs));
-    Ok(those(MOST_CONTACTS, |row| has(holds, row) || number(&forces, row) > 0.0))
+    let set = those(MOST_CONTACTS, |row| has(holds, row) || number(&forces, row) > 0.0);
+    Ok(Pushed { set, halves })
 }
 
 /// Answers the stops and the frictions that stick at the end of a step of `h` seconds: changes all coordinates and velocities
@@ -71,7 +91,7 @@ pub fn push<T: Real>(
 pub fn strike<T: Real>(
     equations: &dyn Equations<T>,
     (h, changes): (T, Changes<'_, T>),
-    (pushed, before): (u32, At<'_, T>),
+    (pushed, before): (&Pushed<T>, At<'_, T>),
     (t, [q, v]): (T, [&mut [T]; 2]),
     inputs: &mut [T],
 ) -> Result<bool, Error> {
@@ -82,7 +102,7 @@ pub fn strike<T: Real>(
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     let is_struck = strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
-    let has_halted = halt(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
+    let has_halted = halt(equations, (h, own), (pushed.set, before), (t, [&mut *q, &mut *v]), inputs)?;
     let own = Changes { still, rows, q: of_q, v: of_v };
     let passes = pass_and_engage(equations, (h, own), found, (t, [q, v]), inputs)?;
     Ok(has_halted || is_struck || passes)
@@ -134,12 +154,13 @@ fn pass_and_engage<T: Real>(
 fn strike_stops<T: Real>(
     equations: &dyn Equations<T>,
     (h, changes): (T, Changes<'_, T>),
-    (pushed, before): (u32, At<'_, T>),
+    (pushed, before): (&Pushed<T>, At<'_, T>),
     (t, [q, v]): (T, [&mut [T]; 2]),
     inputs: &mut [T],
 ) -> Result<bool, Error> {
     let count = equations.info().stops.len();
-    let (pushed, locked) = (pushed & all_stops(equations.info()), locked(equations.info(), inputs));
+    let (halves, locked) = (&pushed.halves, locked(equations.info(), inputs));
+    let pushed = pushed.set & all_stops(equations.info());
     let now = Gaps::of(equations, At { t, q, v }, changes.still);
     let closed = pushed | those(count, |stop| number(&now.gap, stop) <= 0.0);
     if closed == 0 {
@@ -165,7 +186,8 @@ fn strike_stops<T: Real>(
     let answered = Contacts::at(equations, (t, q), |contacts| {
         let allowed = core::array::from_fn(|row| modes::allowed::<T>(size, contacts.slope(row)));
         let from = (&contacts, info, locked);
-        let striking = Striking::new(from, h, (&ends, &allowed), (&restitutions, &bounds, &slid), pushed);
+        let striking =
+            Striking::new(from, h, (&ends, &allowed), (&restitutions, &bounds, &slid), (pushed, halves));
         let answer = striking.answer(closed)?;
         // what has stuck in the whole step is where it was
         let back = those(MOST_CONTACTS, |row| has(stuck, row) && number(&answer.directions, row) == 0.0);

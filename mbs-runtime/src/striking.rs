@@ -30,8 +30,9 @@ pub(crate) struct Striking<'a, T> {
     bounds: &'a Bounds<T>,
     /// The directions in which these slid at the start of the step.
     slid: &'a Each<f64>,
-    /// The stops that were rested on there.
+    /// The stops that were rested on there, and half of the impulses of all rests.
     pushed: u32,
+    halves: &'a Each<T>,
     ends: &'a Ends<T>,
     /// The depths by which gaps may be behind their stops where modes lead them.
     allowed: &'a Each<f64>,
@@ -65,7 +66,7 @@ impl<'a, T: Real> Striking<'a, T> {
         h: T,
         (ends, allowed): (&'a Ends<T>, &'a Each<f64>),
         (restitutions, bounds, slid): (&'a Each<T>, &'a Bounds<T>, &'a Each<f64>),
-        pushed: u32,
+        (pushed, halves): (u32, &'a Each<T>),
     ) -> Self {
         let one = T::from_f64(1.0);
         let [before, now] = &ends.gap;
@@ -94,6 +95,7 @@ impl<'a, T: Real> Striking<'a, T> {
             bounds,
             slid,
             pushed,
+            halves,
             ends,
             allowed,
             change,
@@ -210,10 +212,13 @@ impl<'a, T: Real> Striking<'a, T> {
         Some(Struck { impulses, held: self.locked, rubbed: 0, directions: [0.0; MOST_CONTACTS] })
     }
 
-    /// The rates with which gaps close, ġ_s.
+    /// The rates with which gaps close, ġ_s, and what the second half of a rest leaves of them.
     fn approach(&self) -> Each<T> {
-        let behind = zip(&self.rest, &self.change, |rest, change| rest * change);
-        zip(&self.ends.rate[1], &behind, |rate, behind| rate - behind)
+        let second = self.contacts.rates(self.halves);
+        core::array::from_fn(|row| match has(self.pushed, row) {
+            true => of(&self.ends.rate[1], row) + of(&second, row),
+            false => of(&self.ends.rate[1], row) - of(&self.rest, row) * of(&self.change, row),
+        })
     }
 
     /// The rates −e ġ with which gaps open again.

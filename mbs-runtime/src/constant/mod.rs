@@ -23,6 +23,7 @@ use core::fmt;
 use crate::adaptive::{Moment, RISEN, cause, is_healthy};
 use crate::diagnosis::{check_inputs, singular};
 use crate::equations::At;
+use crate::moreau::Pushed;
 use crate::run::note_risen;
 use crate::samples::Grid;
 use crate::simulation::clock;
@@ -82,7 +83,7 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
         let growth = kernel.step(&*dynamics, inputs, *step, t_next, next);
         match growth.filter(|growth| is_healthy(*growth, next)) {
             Some(growth) => {
-                self.strike(pushed)?;
+                self.strike(&pushed)?;
                 self.accept(growth)
             }
             None => Err(self.cause()),
@@ -90,17 +91,17 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     }
 
     /// The stops that push before a step.
-    fn push(&mut self) -> Result<u32, Error> {
+    fn push(&mut self) -> Result<Pushed<D::Real>, Error> {
         let Self { dynamics, inputs, step, next, all: [q, v], .. } = self;
         if !dynamics.equations().info().jumps() {
-            return Ok(0);
+            return Ok(Pushed::NONE);
         }
         let (mut v, mut vectors) = (v.clone(), vectors(dynamics));
         let pushed = with_memories(dynamics, next.t, inputs, |inputs| {
             let at = (next.t, q.as_ref(), v.as_mut());
             moreau::push(dynamics.equations(), (*step, vectors.changes()), at, inputs)
         })?;
-        if pushed != 0 {
+        if pushed.is_any() {
             next.v = dynamics.states(&v);
             self.is_solved = false;
         }
@@ -108,7 +109,7 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     }
 
     /// Leads the step that was tried back from the stops that are closed at its end.
-    fn strike(&mut self, pushed: u32) -> Result<(), Error> {
+    fn strike(&mut self, pushed: &Pushed<D::Real>) -> Result<(), Error> {
         let Self { dynamics, inputs, step, now, next, all: [q_before, v_before], .. } = self;
         if !dynamics.equations().info().jumps() {
             return Ok(());

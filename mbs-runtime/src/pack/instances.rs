@@ -15,6 +15,7 @@ use core::borrow::Borrow;
 use super::{Each, Many, ManyStates};
 use crate::equations::Arrays;
 use crate::lanes::{Lane, Lanes};
+use crate::moreau::Pushed;
 use crate::simulation::{pushed, struck as stopped};
 use crate::straight::Straight;
 use crate::watch::rise_after;
@@ -243,8 +244,8 @@ pub(super) fn push<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M, 
     members: &[S; N],
     instances: &mut Instances<M, N>,
     now: &mut Moment<M, N>,
-) -> Option<[u32; N]> {
-    let mut all = [0; N];
+) -> Option<[Pushed<M::Real>; N]> {
+    let mut all = [Pushed::NONE; N];
     if !M::INFO.jumps() {
         return Some(all);
     }
@@ -264,7 +265,7 @@ pub(super) fn strike<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M
     members: &[S; N],
     instances: &mut Instances<M, N>,
     before: &Moment<M, N>,
-    (pushed, now): ([u32; N], &mut Moment<M, N>),
+    (pushed, now): (&[Pushed<M::Real>; N], &mut Moment<M, N>),
 ) -> bool {
     if !M::INFO.jumps() {
         return true;
@@ -274,7 +275,7 @@ pub(super) fn strike<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M
         let (member, mut inputs) = (members[lane].borrow(), instances.scalar_inputs(lane));
         let ends = [before.scalar_state(lane), now.scalar_state(lane)];
         let h = member.step_size();
-        let Ok(end) = stopped(member.mechanism(), h, (pushed[lane], ends.each_ref()), &mut inputs) else {
+        let Ok(end) = stopped(member.mechanism(), h, (&pushed[lane], ends.each_ref()), &mut inputs) else {
             return false;
         };
         struck.put_scalar(lane, &end);

@@ -170,7 +170,7 @@ where
             if !is_calm(&margin, &next, watches) {
                 break;
             }
-            if !strike(members, instances, &now, (pushed, &mut next)) {
+            if !strike(members, instances, &now, (&pushed, &mut next)) {
                 break;
             }
             now = next;
@@ -205,7 +205,7 @@ where
         }
         now.count(steps as f64);
         let are_calm = is_calm(&margin, &now, watches)
-            && strike(&self.members, &mut self.instances, &self.now, (pushed, &mut now));
+            && strike(&self.members, &mut self.instances, &self.now, (&pushed, &mut now));
         if are_calm {
             self.now = now;
             sample(&self.members, &mut self.instances, &now);

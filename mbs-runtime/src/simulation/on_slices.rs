@@ -4,6 +4,7 @@
 use super::Simulation;
 use crate::arrays::{Constraints, Coordinates};
 use crate::equations::Arrays;
+use crate::moreau::Pushed;
 use crate::room::{OnStack, Room};
 use crate::run::Run;
 use crate::samples::Grid;
@@ -65,7 +66,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         let led = pushed(&self.mechanism, self.step, &mut self.state, &mut self.inputs).and_then(|pushed| {
             step(self)?;
             let ends = [&before.state, &self.state];
-            struck(&self.mechanism, self.step, (pushed, ends), &mut self.inputs)
+            struck(&self.mechanism, self.step, (&pushed, ends), &mut self.inputs)
         });
         match led {
             Ok(state) => self.state = state,
@@ -143,12 +144,12 @@ pub(crate) fn pushed<M: Mechanism>(
     h: M::Real,
     state: &mut State<M::States>,
     inputs: &mut M::Inputs,
-) -> Result<u32, Error> {
+) -> Result<Pushed<M::Real>, Error> {
     let Arrays { t, q, mut v } = Arrays::of(&mechanism.complete(state));
     let (mut own, mut vectors) = (inputs.into_array(), vectors::<M>());
     let pushed = moreau::push(mechanism, (h, vectors.changes()), (t, q.as_ref(), v.as_mut()), own.as_mut())?;
     *inputs = Components::from_array(own);
-    if pushed != 0 {
+    if pushed.is_any() {
         state.v = M::states(Components::from_array(v));
     }
     Ok(pushed)
@@ -161,7 +162,7 @@ pub(crate) fn pushed<M: Mechanism>(
 pub(crate) fn struck<M: Mechanism>(
     mechanism: &M,
     h: M::Real,
-    (pushed, ends): (u32, [&State<M::States>; 2]),
+    (pushed, ends): (&Pushed<M::Real>, [&State<M::States>; 2]),
     inputs: &mut M::Inputs,
 ) -> Result<State<M::States>, Error> {
     let [before, after] = ends.map(|end| Arrays::of(&mechanism.complete(end)));

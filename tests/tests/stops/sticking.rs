@@ -251,6 +251,36 @@ fn an_impact_that_halts_turns_friction_around() -> Result<(), Error> {
 }
 
 mechanism! {
+    /// A block that a force pushes against a stop, and holds there.
+    Pressed {
+        dof = 1;
+        param e = 0;
+        body block (x) { mass = 2 [kg]; }
+        force push on x = 30 [N];
+        friction rub (block, ground) along (1, 0) { coefficient = 0.5; normal = 20 [N]; law = coulomb; }
+        stop end: x <= 0.5 [m] { restitution = e; }
+        output rub [N] = force(rub);
+    }
+}
+
+/// Regression: what a stop halts has no direction any more. With constant steps a speed of exactly 0 was none that had changed
+/// its sign, and friction went on with its force.
+#[test]
+fn what_a_stop_halts_sticks() -> Result<(), Error> {
+    for e in [0.0, 0.5] {
+        let pressed = Pressed::new(PressedParameters { e })?;
+        let mut in_steps = Simulation::new(pressed, 1e-3)?;
+        let mut to_tolerance = Adaptive::builder(pressed).tolerances(TIGHT).build()?;
+        in_steps.advance_to(1.5)?;
+        to_tolerance.advance_to(1.5)?;
+        let directions = [in_steps.inputs().rub_direction, to_tolerance.inputs().rub_direction];
+        assert_eq!((in_steps.outputs()?.rub, directions), (0.0, [0.0; 2]), "{e}");
+        assert_eq!([in_steps.inputs().end, to_tolerance.inputs().end], [1.0; 2], "{e}");
+    }
+    Ok(())
+}
+
+mechanism! {
     /// A flywheel with a Scotch yoke that rubs.
     Yoke {
         dof = 1;

@@ -1,6 +1,6 @@
 //! Stops at the ends of the steps of a run.
 
-use mbs_runtime::equations::{At, Equations, Vectors, begin_at_stops, push, strike};
+use mbs_runtime::equations::{At, Equations, Pushed, Vectors, begin_at_stops, push, strike};
 use mbs_runtime::{Error, Real};
 
 use super::Run;
@@ -14,7 +14,7 @@ impl<T: Real> Run<T> {
         let before = At { t, q: &q_before, v: &v_before };
         let led = self.push().and_then(|pushed| {
             self.step_between()?;
-            self.strike(pushed, before)
+            self.strike(&pushed, before)
         });
         if led.is_err() {
             (self.q, self.v, self.inputs) = (q, v, inputs);
@@ -24,18 +24,18 @@ impl<T: Real> Run<T> {
     }
 
     /// The stops that push before a step.
-    fn push(&mut self) -> Result<u32, Error> {
+    fn push(&mut self) -> Result<Pushed<T>, Error> {
         let [q, mut v] = self.completed();
         let mut vectors = Vectors::new(vec![T::ZERO; q.len()], vec![T::ZERO; self.multipliers]);
         let pushed =
             push(&self.mechanism, (self.step, vectors.changes()), (self.t, &q, &mut v), &mut self.inputs)?;
-        if pushed != 0 {
+        if pushed.is_any() {
             self.mechanism.states(&v, &mut self.v);
         }
         Ok(pushed)
     }
 
-    fn strike(&mut self, pushed: u32, before: At<'_, T>) -> Result<(), Error> {
+    fn strike(&mut self, pushed: &Pushed<T>, before: At<'_, T>) -> Result<(), Error> {
         let [mut q, mut v] = self.completed();
         let mut vectors = Vectors::new(vec![T::ZERO; q.len()], vec![T::ZERO; self.multipliers]);
         let end = (self.t, [&mut q[..], &mut v[..]]);

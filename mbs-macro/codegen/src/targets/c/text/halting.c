@@ -12,6 +12,13 @@ struct NAME_halting {
     real shift[CAPS_ROWS];
 };
 
+/* True if a friction that slid has come to a halt, or goes against the direction in which it slid. */
+static int NAME_has_crossed(const struct NAME_run *run, int row, real was, real rate)
+{
+    const double direction = NAME_direction(run, row), none = NAME_rounding(1e-12) * fabs((double)was);
+    return direction != 0 && direction * (double)rate <= none;
+}
+
 /* Half a step of those that stuck, and the rest of the step of those that have come to a halt in it. */
 static void NAME_begin_halt(
     const struct NAME_run *run, const int *stuck, const int *crossed, const real *was, const real *now,
@@ -24,7 +31,10 @@ static void NAME_begin_halt(
         it->halted[row] = stuck[row] || crossed[row];
         if (crossed[row]) {
             const real from = was[3 * row + 1], to = now[3 * row + 1];
-            const real part = NAME_direction(run, row) * (double)from > 0 ? 1 - from / (from - to) : 1;
+            const double direction = NAME_direction(run, row);
+            /* what is halted by others may have been still all the time */
+            const int has_turned = direction * (double)from > 0 && direction * (double)to < 0;
+            const real part = has_turned ? 1 - from / (from - to) : 1;
             const real rest = part * h;
             it->most[at + 1] = rest * (sliding + sticking);
             it->loose[row] = rest * (sliding + sliding);
@@ -117,11 +127,12 @@ RUBS         NAME_hold(run);
         return CAPS_OK;
     }
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
+    NAME_compute_gaps(m, before->t, &before->q, &before->v, &still, was);
     for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
 SMOOTH         stuck[row] = pushed[row];
-SMOOTH         crossed[row] = NAME_direction(run, row) * (double)now[3 * row + 1] < 0;
+SMOOTH         crossed[row] = NAME_has_crossed(run, row, was[3 * row + 1], now[3 * row + 1]);
 RUBS         stuck[row] = pushed[row] && NAME_stop_of(row) < 0;
-RUBS         crossed[row] = NAME_stop_of(row) < 0 && NAME_direction(run, row) * (double)now[3 * row + 1] < 0;
+RUBS         crossed[row] = NAME_stop_of(row) < 0 && NAME_has_crossed(run, row, was[3 * row + 1], now[3 * row + 1]);
         acts[row] = stuck[row] || crossed[row];
         has_acted = has_acted || acts[row];
     }
@@ -137,7 +148,6 @@ RUBS         crossed[row] = NAME_stop_of(row) < 0 && NAME_direction(run, row) * 
             NAME_press_with(run, held, &reactions, forces);
         }
         NAME_compute_limits(m, at->t, &at->q, &at->v, &run->inputs, &reactions, limits);
-        NAME_compute_gaps(m, before->t, &before->q, &before->v, &still, was);
         NAME_compute_contacts(m, at->t, &at->q, contacts);
         if (!(contacts[CAPS_CONTACTS - 1] < NAME_growth_limit)) {
             return NAME_unanswered(run, acts);
@@ -170,7 +180,7 @@ RUBS             NAME_find_halts(contacts, slides, held, now, &it, impulses);
 RUBS                 if (NAME_stop_of(row) >= 0) {
 RUBS                     continue;
 RUBS                 }
-                if (!stuck[row] && !crossed[row] && NAME_direction(run, row) * (double)rates[row] < 0) {
+                if (!stuck[row] && !crossed[row] && NAME_has_crossed(run, row, was[3 * row + 1], rates[row])) {
                     ends[3 * row + 1] = rates[row];
                     crossed[row] = 1;
                     is_late = 1;

@@ -1,11 +1,12 @@
 /* Leads the end of a step back from the stops that are closed there, or that are closed by impulses at these. */
-static int NAME_strike_stops(struct NAME_run *run, const int *pushed, const struct NAME_state *before)
+static int NAME_strike_stops(
+    struct NAME_run *run, const int *pushed, const real *halves, const struct NAME_state *before)
 {
     const struct NAME *const m = run->mechanism;
     struct NAME_state *const at = &run->state;
     const struct NAME_reactions still = {0};
-SMOOTH     struct NAME_answer it = {0};
-RUBS     struct NAME_answer it = {{0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, 0, {0}, {0}, {0}, {0}, pushed, {0}, {0}, {{0}, {0}}};
+SMOOTH     struct NAME_answer it = {pushed, halves, {0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, 0, {0}, {0}, {0}, {0}};
+RUBS     struct NAME_answer it = {pushed, halves, {0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, 0, {0}, {0}, {0}, {0}, {0}, {0}, {{0}, {0}}};
     struct NAME_coordinates of_q = {0}, of_v = {0}, led = {0};
     struct NAME_constraints rows = {0};
     real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, rated[3 * CAPS_ROWS] = {0};
@@ -162,11 +163,12 @@ int NAME_step(struct NAME_run *run)
 {
     const struct NAME_run before = *run;
     int pushed[CAPS_ROWS] = {0}, due[CAPS_ROWS + 16] = {0};
-    int code = NAME_push(run, pushed);
+    real halves[CAPS_ROWS] = {0};
+    int code = NAME_push(run, pushed, halves);
     code = code == CAPS_OK ? NAME_step_free(run) : code;
     /* a stop may throw back what a condition has let pass */
     NAME_find_due(run, due);
-    code = code == CAPS_OK ? NAME_strike_stops(run, pushed, &before.state) : code;
+    code = code == CAPS_OK ? NAME_strike_stops(run, pushed, halves, &before.state) : code;
     code = code == CAPS_OK ? NAME_halt(run, pushed, &before.state) : code;
     code = code == CAPS_OK ? NAME_pass_and_engage(run, due) : code;
     if (code != CAPS_OK) {

@@ -37,8 +37,8 @@ static int NAME_hold_back(
     return is_answered;
 }
 
-/* Half of what the forces of rest do in a step, before it. */
-static int NAME_push(struct NAME_run *run, int *pushed)
+/* Half of what the forces of rest do in a step, before it; what pushes, with these halves. */
+static int NAME_push(struct NAME_run *run, int *pushed, real *halves)
 {
     struct NAME_state *const at = &run->state;
     const real half = (real)0.5 * run->step;
@@ -63,14 +63,17 @@ static int NAME_push(struct NAME_run *run, int *pushed)
     NAME_compute_contacts(run->mechanism, at->t, &at->q, contacts);
     for (int row = 0; row < CAPS_ROWS; row++) {
         pushed[row] = forces[row] > 0 || (row >= CAPS_STOPS && held[row]);
-        forces[row] = half * forces[row];
+        halves[row] = half * forces[row];
     }
-    NAME_add_responses(contacts, forces, 0, CAPS_COORDINATES, NAME_places(&at->v));
+    NAME_add_responses(contacts, halves, 0, CAPS_COORDINATES, NAME_places(&at->v));
     return CAPS_OK;
 }
 
 /* A step that ends at stops: the rates of gaps at its start and its end, and the impulses that answer them. */
 struct NAME_answer {
+    /* the stops that push before the step, and half of the impulses of all rests */
+    const int *pushed;
+    const real *halves;
     real before[CAPS_ROWS], now[CAPS_ROWS], gap_now[CAPS_ROWS];
     /* the part of the step behind the closing of a gap, and what an impulse moves positions by */
     real rest[CAPS_ROWS], shift[CAPS_ROWS];
@@ -78,8 +81,7 @@ struct NAME_answer {
     /* how far gaps may be behind their stops where modes lead them */
     double allowed[CAPS_ROWS];
     real impulses[CAPS_ROWS], moved[CAPS_ROWS], gaps[CAPS_ROWS];
-RUBS     /* the stops that push before the step, the directions in which frictions slid there, and in which they slide then */
-RUBS     const int *pushed;
+RUBS     /* the directions in which frictions slid at its start, and in which they slide then */
 RUBS     double slid[CAPS_ROWS], directions[CAPS_ROWS];
 RUBS     struct NAME_bounds bounds;
 };
@@ -133,7 +135,7 @@ static int NAME_hit(
     struct NAME_answer *it)
 {
     real change[CAPS_ROWS] = {0}, taken[CAPS_ROWS] = {0}, approach[CAPS_ROWS] = {0}, thrown[CAPS_ROWS] = {0}, wanted[CAPS_ROWS] = {0};
-    real more[CAPS_ROWS] = {0};
+    real more[CAPS_ROWS] = {0}, second[CAPS_ROWS];
     int set[CAPS_ROWS];
 RUBS     const double none[CAPS_ROWS] = {0};
 RUBS     struct NAME_bounds bounds = it->bounds;
@@ -141,11 +143,15 @@ RUBS     const struct NAME_hit at = {closing, it->locked, none, &bounds, rates};
 RUBS     struct NAME_struck struck;
     for (int row = 0; row < CAPS_ROWS; row++) {
         change[row] = it->now[row] - it->before[row];
+        second[row] = it->now[row];
         wanted[row] = rates[row];
         set[row] = closing[row] || it->locked[row];
     }
+    NAME_change_rates(contacts, it->halves, second);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        approach[stop] = turn == 0 ? it->now[stop] - it->rest[stop] * change[stop] : rates[stop];
+        /* of a rest what its second half leaves */
+        const real first = it->pushed[stop] ? second[stop] : it->now[stop] - it->rest[stop] * change[stop];
+        approach[stop] = turn == 0 ? first : rates[stop];
     }
     if (!NAME_hold_back(contacts, it->closed, it->locked, change, taken)) {
         if (!NAME_is_any(it->locked)) {

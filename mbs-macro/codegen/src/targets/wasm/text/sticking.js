@@ -144,12 +144,20 @@ class Sticking extends AtContacts {
     });
   }
 
+  // True of a friction that slid and has come to a halt, or goes against the direction in which it slid.
+  hasCrossed(row, was, rate) {
+    const direction = this.direction(row);
+    return direction !== 0 && direction * rate <= 1e-12 * Math.abs(was);
+  }
+
   // Half a step of those that stuck, and the rest of the step of those that have come to a halt in it.
   halting(stuck, crossed, was, ends, limits) {
     const { h } = this, none = { given: 0, most: 0, loose: 0, shift: 0 };
     return limits.map(({ sliding, most }, row) => {
       if (crossed[row]) {
-        const from = was[row], part = this.direction(row) * from > 0 ? 1 - from / (from - ends[row]) : 1, rest = part * h;
+        const direction = this.direction(row), from = was[row], to = ends[row];
+        // what is halted by others may have been still all the time
+        const hasTurned = direction * from > 0 && direction * to < 0, rest = (hasTurned ? 1 - from / (from - to) : 1) * h;
         return { given: 0, most: rest * (sliding + most), loose: rest * (sliding + sliding), shift: 0.5 * rest };
       }
       if (!stuck[row]) return none;
@@ -189,8 +197,11 @@ class Sticking extends AtContacts {
       return;
     }
     const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved), now = gaps.map(({ rate }) => rate), ends = now.slice();
+    m.trialQ.set(before.q);
+    m.trialV.set(before.v);
+    const gapsBefore = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved), was = gapsBefore.map(({ rate }) => rate);
     const stuck = pushed.map((it, row) => it && rows.includes(row));
-    const crossed = now.map((rate, row) => rows.includes(row) && this.direction(row) * rate < 0);
+    const crossed = now.map((rate, row) => rows.includes(row) && this.hasCrossed(row, was[row], rate));
     if (!stuck.includes(true) && !crossed.includes(true) && !locked.includes(true)) {
       this.hold();
       return;
@@ -199,9 +210,6 @@ class Sticking extends AtContacts {
     m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
     if (held.includes(true)) this.pressWith(held, m.reactions);
     const limits = this.limits(m.reactions);
-    m.trialQ.set(before.q);
-    m.trialV.set(before.v);
-    const gapsBefore = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved), was = gapsBefore.map(({ rate }) => rate);
     m.call("contacts", this.t, this.q, m.contacts);
     const acts = stuck.map((it, row) => it || crossed[row] || locked[row]);
     if (!(m.contacts[m.contacts.length - 1] < this.tables.growthLimit)) this.failAtStop("JAMMED", acts.indexOf(true));
@@ -214,7 +222,7 @@ class Sticking extends AtContacts {
       const halted = stuck.map((it, row) => it || crossed[row]);
       const { impulses, directions } = this.findHalts(resting, now, halted, halting, slides);
       const rates = this.changed(now, impulses);
-      const late = rows.filter((row) => !stuck[row] && !crossed[row] && this.direction(row) * rates[row] < 0);
+      const late = rows.filter((row) => !stuck[row] && !crossed[row] && this.hasCrossed(row, was[row], rates[row]));
       if (!late.length) {
         const ofQ = new Float64Array(n), ofV = new Float64Array(n);
         const moved = impulses.map((impulse, row) => impulse * halting[row].shift);

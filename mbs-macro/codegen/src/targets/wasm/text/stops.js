@@ -235,17 +235,18 @@ class AtStops extends Modes {
     this.noteStops(forces.map((force) => force > 0), this.each(() => 0));
   }
 
-  // Half of what the forces of rest do in a step, before it; the stops that push.
+  // Half of what the forces of rest do in a step, before it; what pushes, with these halves.
   push() {
     const m = this.mechanism, held = this.held(), half = 0.5 * this.h;
-    if (!held.includes(true)) return held;
+    if (!held.includes(true)) return { pushed: held, halves: held.map(() => 0) };
     this.engage();
     const rows = this.frictions();
     const forces = this.decide(held.map((it, row) => it && this.isStop(row)), held.map((it, row) => it && rows.includes(row)));
     const holds = this.held();
     m.call("contacts", this.t, this.q, m.contacts);
-    this.addResponses(forces.map((force) => half * force), 0, this.v);
-    return forces.map((force, row) => force > 0 || (!this.isStop(row) && holds[row]));
+    const halves = forces.map((force) => half * force);
+    this.addResponses(halves, 0, this.v);
+    return { pushed: forces.map((force, row) => force > 0 || (!this.isStop(row) && holds[row])), halves };
   }
 
   // The impulses of an impact; what others keep closed throws nothing back.
@@ -262,7 +263,7 @@ class AtStops extends Modes {
   }
 
   // The impulses at the stops that are closed at the end of a step, or that impulses close, one impact after the other.
-  answer(closed, { before, now, gap, rest, shift, pushed, slid }) {
+  answer(closed, { before, now, gap, rest, shift, pushed, halves, slid }) {
     const none = this.each(() => 0), bounds = this.bounds(), directions = this.each(() => 0);
     const change = now.map((rate, stop) => rate - before[stop]), locked = this.locked();
     const size = largest(this.q.subarray(0, this.tables.lines));
@@ -281,7 +282,10 @@ class AtStops extends Modes {
         return { impulses, moved, gaps, isImpact, held, directions: this.moving(directions, rates, impulses) };
       }
       const taken = this.takenIfAny(closed, change, locked);
-      const approach = turn === 0 ? now.map((rate, stop) => rate - rest[stop] * change[stop]) : rates;
+      // of a rest what its second half leaves
+      const second = this.changed(this.each(() => 0), halves);
+      const first = now.map((rate, stop) => rate + (pushed[stop] ? second[stop] : -(rest[stop] * change[stop])));
+      const approach = turn === 0 ? first : rates;
       const thrown = this.rebounds(approach);
       // what closes in the last of all impacts is rested on
       held = closed.map((it, stop) => it && (turn === 15 || thrown[stop] <= taken[stop]));
@@ -301,7 +305,7 @@ class AtStops extends Modes {
   }
 
   // Leads the end of a step back from the stops that are closed there.
-  strike(pushed, before) {
+  strike({ pushed, halves }, before) {
     const m = this.mechanism, n = this.q.length;
     const now = this.gapsAt(this.t, this.q, this.v, m.unmoved);
     const closed = now.map(({ gap }, stop) => this.isStop(stop) && (pushed[stop] || gap <= 0));
@@ -336,6 +340,7 @@ class AtStops extends Modes {
       rest,
       shift: shift.map((_, row) => shift[ofStop(row)]),
       pushed,
+      halves,
       slid: this.each((row) => (this.stopOf(row) < 0 ? 0 : this.direction(row))),
     });
     // what has stuck in the whole step is where it was
@@ -356,13 +361,13 @@ class AtStops extends Modes {
   toStops(step) {
     const { t, steps, alarm, worstGrowth } = this, q = this.q.slice(), v = this.v.slice();
     try {
-      const hasContacts = this.tables.stops.length > 0, pushed = hasContacts ? this.push() : [];
+      const hasContacts = this.tables.stops.length > 0, push = hasContacts ? this.push() : undefined;
       step();
       // a stop may throw back what a condition has let pass
       const { due } = this.seen(false);
       if (hasContacts) {
-        this.strike(pushed, { t, q, v });
-        this.halt(pushed, { t, q, v });
+        this.strike(push, { t, q, v });
+        this.halt(push.pushed, { t, q, v });
       }
       this.passAndEngage(due);
     } catch (failure) {
