@@ -205,8 +205,12 @@ fn strike_stops<T: Real>(
     let answer = answered.flatten().ok_or_else(|| impact(equations, t, closed))?;
     vectors::zip_map(q, changes.q, |q, change| q + change);
     vectors::zip_map(v, changes.v, |v, change| v + change);
-    // a force that presses for a step is no impact
-    let noted = if answer.is_impact { answer.impulses } else { [T::ZERO; MOST_CONTACTS] };
+    // a force that presses for a step is no impact, nor has the second half of a rest a part in one
+    let noted = core::array::from_fn(|stop| {
+        let second = if has(pushed, stop) { of(halves, stop) } else { T::ZERO };
+        let more = of(&answer.impulses, stop) - second;
+        if answer.is_impact && more > T::ZERO { more } else { T::ZERO }
+    });
     note(equations, answer.held, &noted, inputs);
     let Answer { impulses, directions, .. } = answer;
     let struck = Struck {

@@ -1,7 +1,7 @@
 //! Mechanisms whose stops rub, as texts.
 
 /// Each with a word of what it does.
-const ROUGH: [(&str, &str); 8] = [
+const ROUGH: [(&str, &str); 9] = [
     (
         "a rod in a corner",
         "Rod {
@@ -48,6 +48,22 @@ const ROUGH: [(&str, &str); 8] = [
             force shake on lower = (12 [N]*sin(9 [1/s]*t) + push, 0 [N]);
             output rests = table;
             start { yb = 0.4 [m]; ya = 0.05 [m]; }
+        }",
+    ),
+    (
+        "a block on a table that swings and then rises at once, pushed to a wall",
+        "Moving {
+            dof = 2;
+            gravity = (0, -9.81) [m/s^2];
+            body block (x, y) { mass = 2 [kg]; }
+            stop table: y >= 0.02 [m]*sin(20 [1/s]*t) + (if t < 0.6 [s] { 0 [m] } else { 1 [m/s]*(t - 0.6 [s]) }) {
+                restitution = 0.5; friction = 0.1; along = x;
+            }
+            stop wall: x <= 0.1 [m] { restitution = 0; }
+            friction guide (block, ground) along (1, 0) { coefficient = 0.3; normal = 10 [N]; law = coulomb; }
+            force push on x = 20 [N];
+            output held [N] = force(guide);
+            start { y = 5e-4 [m]; der(y) = 0.4 [m/s]; }
         }",
     ),
     (

@@ -165,8 +165,10 @@ impl Resolver<'_> {
         found
     }
 
-    /// Refuses what does not go with friction that sticks.
+    /// Puts the frictions of stops behind the others, and refuses what does not go with friction that sticks. Of what holds
+    /// one motion the first holds it; how much one of a stop may hold depends on what the others leave.
     pub(super) fn check_frictions(&mut self) {
+        self.frictions.sort_by_key(|friction| friction.stop.is_some());
         let Some(friction) = self.frictions.first() else { return };
         let (name, span) = (friction.quantity.name.clone(), friction.span);
         let mut refuse = |message: String, help: &str| {

@@ -79,7 +79,9 @@ RUBS         }
     NAME_add(NAME_places(&at->q), 1, NAME_elements(&of_q), CAPS_COORDINATES);
     NAME_add(NAME_places(&at->v), 1, NAME_elements(&of_v), CAPS_COORDINATES);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        it.impulses[stop] = it.is_impact ? it.impulses[stop] : 0;
+        /* the second half of a rest has no part in an impact */
+        const real impulse = it.impulses[stop] - (pushed[stop] ? halves[stop] : 0);
+        it.impulses[stop] = it.is_impact && impulse > 0 ? impulse : 0;
     }
     NAME_note_stops(run, it.held, it.impulses);
 RUBS     for (int at_row = 0; at_row < CAPS_RUBBING; at_row++) {

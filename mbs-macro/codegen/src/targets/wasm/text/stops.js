@@ -353,7 +353,9 @@ class AtStops extends Modes {
     this.addResponses(impulses, 0, ofV);
     add(this.q, 1, ofQ);
     add(this.v, 1, ofV);
-    this.noteStops(held, impulses.map((impulse) => (isImpact ? impulse : 0)));
+    // the second half of a rest has no part in an impact
+    const more = impulses.map((impulse, stop) => impulse - (pushed[stop] ? halves[stop] : 0));
+    this.noteStops(held, more.map((impulse) => (isImpact && impulse > 0 ? impulse : 0)));
     this.noteDirections(this.each((row) => isClosed[this.stopOf(row)] || held[this.stopOf(row)]), directions);
   }
 
