@@ -112,8 +112,8 @@ fn crossing<T: Real>(info: &Info, [was, rates]: [&Each<T>; 2], memory: impl Fn(u
     let free = frictions(info).filter(|(row, _)| has(free_frictions(info), *row));
     let crossed = free.filter(|(row, _)| {
         let (direction, _) = memory(*row);
-        let none = share::<T>(ROUNDING) * number(was, *row).abs();
-        direction != 0.0 && direction * number(rates, *row) <= none
+        let [from, to] = [was, rates].map(|rates| direction * number(rates, *row));
+        to < 0.0 || from > 0.0 && to <= share::<T>(ROUNDING) * from
     });
     crossed.fold(0, |set, (row, _)| set | bit(row))
 }

@@ -15,8 +15,8 @@ struct NAME_halting {
 /* True if a friction that slid has come to a halt, or goes against the direction in which it slid. */
 static int NAME_has_crossed(const struct NAME_run *run, int row, real was, real rate)
 {
-    const double direction = NAME_direction(run, row), none = NAME_rounding(1e-12) * fabs((double)was);
-    return direction != 0 && direction * (double)rate <= none;
+    const double direction = NAME_direction(run, row), from = direction * (double)was, to = direction * (double)rate;
+    return to < 0 || (from > 0 && to <= NAME_rounding(1e-12) * from);
 }
 
 /* Half a step of those that stuck, and the rest of the step of those that have come to a halt in it. */

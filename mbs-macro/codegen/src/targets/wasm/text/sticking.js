@@ -146,8 +146,8 @@ class Sticking extends AtContacts {
 
   // True of a friction that slid and has come to a halt, or goes against the direction in which it slid.
   hasCrossed(row, was, rate) {
-    const direction = this.direction(row);
-    return direction !== 0 && direction * rate <= 1e-12 * Math.abs(was);
+    const from = this.direction(row) * was, to = this.direction(row) * rate;
+    return to < 0 || (from > 0 && to <= 1e-12 * from);
   }
 
   // Half a step of those that stuck, and the rest of the step of those that have come to a halt in it.
