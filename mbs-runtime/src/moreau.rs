@@ -30,7 +30,7 @@ use crate::modes::{self, Judging, close, due, engage, pass};
 use crate::pressing::held;
 use crate::rubbing::{self, Bounds, Struck};
 use crate::sticking::{Held, Undecided, all_frictions, decide, direction};
-use crate::striking::{Answer, Ends, Striking, of, zip};
+use crate::striking::{Answer, Ends, Sizes, Striking, of, zip};
 pub use crate::touching::begin;
 use crate::{Error, Real, touching, vectors};
 
@@ -168,6 +168,10 @@ fn strike_stops<T: Real>(
         return Ok(false);
     }
     let gap_before = Gaps::of(equations, before, changes.still).gap;
+    equations.free_reactions(At { t, q, v }, inputs, changes.q, changes.rows);
+    let pressing = Gaps::of(equations, At { t, q, v }, changes.q).acceleration.map(|a| h * a);
+    let size = vectors::largest(equations.info().of_bodies(q)).1.to_f64();
+    let speed = [before.v, &*v].map(|v| vectors::largest(v).1.to_f64()).into_iter().fold(0.0, f64::max);
     // velocities as joints at the end have them: those of the start change by forces alone, and stops that depend on each
     // other do not contradict each other by what joints are off
     let mut rate = |velocities: &[T]| {
@@ -182,12 +186,10 @@ fn strike_stops<T: Real>(
     let (info, bounds) = (equations.info(), Bounds::of(equations));
     let slid = core::array::from_fn(|row| direction(info, inputs, row));
     let stuck = rubbing::all_rubbing(info) & held(equations, inputs);
-    let size = vectors::largest(equations.info().of_bodies(q)).1.to_f64();
     let answered = Contacts::at(equations, (t, q), |contacts| {
-        let allowed = core::array::from_fn(|row| modes::allowed::<T>(size, contacts.slope(row)));
-        let from = (&contacts, info, locked);
-        let striking =
-            Striking::new(from, h, (&ends, &allowed), (&restitutions, &bounds, &slid), (pushed, halves));
+        let sizes = Sizes::of(&contacts, size, speed);
+        let (from, laws) = ((&contacts, info, locked), (&restitutions, &bounds, &slid));
+        let striking = Striking::new(from, h, (&ends, &pressing, &sizes), laws, (pushed, halves));
         let answer = striking.answer(closed)?;
         // what has stuck in the whole step is where it was
         let back = those(MOST_CONTACTS, |row| has(stuck, row) && number(&answer.directions, row) == 0.0);

@@ -4,17 +4,42 @@ use crate::contact::{Contacts, Each, MOST_CONTACTS, has, number, share, those};
 use crate::mechanism::growth_limit;
 use crate::moreau::{rebounds, taken};
 use crate::rubbing::{self, Bounds, Hit, Struck};
-use crate::{Info, Real};
+use crate::{Info, Real, modes};
 
-/// So many impacts follow each other within a step. What closes then is rested on.
+/// So many impacts follow each other within a step. The last one is without restitution at all stops that are closed; where it
+/// has no answer, they contradict each other.
 const IN_SEQUENCE: usize = 16;
 /// A rate is 0 below this share of the terms of which it is made.
 const ROUNDING: f64 = 1e-12;
+/// Gaps, and their rates, are 0 below this share of the size of the coordinates, and of the largest velocity.
+const NOTHING: f64 = 1e-14;
 
 /// Gaps and their rates at the start and at the end of a step.
 pub(crate) struct Ends<T> {
     pub gap: [Each<T>; 2],
     pub rate: [Each<T>; 2],
+}
+
+/// What gaps and rates are compared with, by their rows.
+pub(crate) struct Sizes {
+    /// The depths by which gaps may be behind their stops where modes lead them.
+    pub allowed: Each<f64>,
+    /// The gaps up to which stops are closed, and the rates that are rounding of the velocities.
+    pub nearest: Each<f64>,
+    pub slowest: Each<f64>,
+}
+
+impl Sizes {
+    /// Those of a mechanism of a size, with its largest velocity.
+    pub fn of<T: Real>(contacts: &Contacts<'_, T>, size: f64, speed: f64) -> Self {
+        let slopes: Each<f64> = core::array::from_fn(|row| contacts.slope(row));
+        let share = share::<T>(NOTHING);
+        Self {
+            allowed: slopes.map(|slope| modes::allowed::<T>(size, slope)),
+            nearest: slopes.map(|slope| share * size * slope),
+            slowest: slopes.map(|slope| share * speed * slope),
+        }
+    }
 }
 
 /// Stops at the end of a step.
@@ -34,10 +59,11 @@ pub(crate) struct Striking<'a, T> {
     pushed: u32,
     halves: &'a Each<T>,
     ends: &'a Ends<T>,
-    /// The depths by which gaps may be behind their stops where modes lead them.
-    allowed: &'a Each<f64>,
+    sizes: &'a Sizes,
     /// ġ − ġ₀
     change: Each<T>,
+    /// h g̈ without the forces of stops, with what their own motion and the way of bodies along them make of it.
+    pressing: &'a Each<T>,
     /// The rest of the step behind the closing of a gap: 1 − s.
     rest: Each<T>,
     /// The displacement by a unit impulse: (1 − s) h, and 0 where it is the second half of a push.
@@ -64,7 +90,7 @@ impl<'a, T: Real> Striking<'a, T> {
     pub fn new(
         (contacts, info, locked): (&'a Contacts<'a, T>, &'a Info, u32),
         h: T,
-        (ends, allowed): (&'a Ends<T>, &'a Each<f64>),
+        (ends, pressing, sizes): (&'a Ends<T>, &'a Each<T>, &'a Sizes),
         (restitutions, bounds, slid): (&'a Each<T>, &'a Bounds<T>, &'a Each<f64>),
         (pushed, halves): (u32, &'a Each<T>),
     ) -> Self {
@@ -97,8 +123,9 @@ impl<'a, T: Real> Striking<'a, T> {
             pushed,
             halves,
             ends,
-            allowed,
+            sizes,
             change,
+            pressing,
             rest,
             shift,
         }
@@ -119,10 +146,12 @@ impl<'a, T: Real> Striking<'a, T> {
             let moved = zip(&impulses, shift, |impulse, shift| impulse * shift);
             let gap = zip(&ends.gap[1], &contacts.rates(&moved), |gap, change| gap + change);
             let rate = zip(&ends.rate[1], &contacts.rates(&impulses), |rate, change| rate + change);
-            closed |= those(self.count, |stop| number(&gap, stop) <= 0.0);
+            closed |= those(self.count, |stop| number(&gap, stop) <= number(&self.sizes.nearest, stop));
             let still = self.still(&impulses);
-            let closing =
-                those(MOST_CONTACTS, |stop| has(closed, stop) && number(&rate, stop) <= number(&still, stop));
+            let is_last = turn + 1 == IN_SEQUENCE;
+            let closing = those(MOST_CONTACTS, |stop| {
+                has(closed, stop) && (is_last || number(&rate, stop) <= number(&still, stop))
+            });
             let is_hit = |stop: usize| has(closing, stop) && number(&rate, stop) < -number(&still, stop);
             if turn == IN_SEQUENCE || !(0..MOST_CONTACTS).any(is_hit) {
                 let held =
@@ -130,17 +159,17 @@ impl<'a, T: Real> Striking<'a, T> {
                 let directions = self.moving(&directions, &rate, &impulses);
                 return Some(Answer { held, impulses, moved, gap, directions, is_impact });
             }
-            let taken = taken(contacts, (closed, self.locked), &self.change)
+            let taken = taken(contacts, (closed, self.locked), self.pressing)
+                .or_else(|| taken(contacts, (closed, self.locked), &self.change))
                 .or_else(|| (self.locked != 0).then_some([T::ZERO; MOST_CONTACTS]))?;
             let approach = if turn == 0 { self.approach() } else { rate };
             let thrown = self.rebounds(&approach);
-            let is_last = turn + 1 == IN_SEQUENCE;
-            held = those(MOST_CONTACTS, |stop| {
-                has(closed, stop) && (is_last || number(&thrown, stop) <= number(&taken, stop))
-            });
-            is_impact = is_impact
-                || (0..MOST_CONTACTS)
-                    .any(|stop| is_hit(stop) && -number(&approach, stop) > number(&taken, stop));
+            // where more stops press than hold, rounding is all that the force at one takes back
+            let rests = |stop: usize| number(&thrown, stop) <= number(&taken, stop) + number(&still, stop);
+            held = those(MOST_CONTACTS, |stop| has(closed, stop) && (is_last || rests(stop)));
+            let is_fast =
+                |stop: usize| -number(&approach, stop) > number(&taken, stop) + number(&still, stop);
+            is_impact = is_impact || (0..MOST_CONTACTS).any(|stop| is_hit(stop) && is_fast(stop));
             let short: Each<T> = core::array::from_fn(|stop| {
                 let later = if turn == 0 { of(&self.rest, stop) * of(&self.change, stop) } else { T::ZERO };
                 let is_still = has(held | self.locked | rubbing, stop);
@@ -206,7 +235,7 @@ impl<'a, T: Real> Striking<'a, T> {
     /// The impulses of modes alone, where their constraints and drives lead to what is closed: a stop gives none while it is
     /// behind its gap by no more than a mode may be off.
     fn led_by_modes(&self, closing: u32, rate: &Each<T>) -> Option<Struck<T>> {
-        let is_deep = |stop: usize| number(&self.ends.gap[1], stop) < -number(self.allowed, stop);
+        let is_deep = |stop: usize| number(&self.ends.gap[1], stop) < -number(&self.sizes.allowed, stop);
         let is_led = self.locked != 0 && !(0..self.count).any(|stop| has(closing, stop) && is_deep(stop));
         let impulses = is_led.then(|| self.contacts.solve(self.locked, rate))?;
         Some(Struck { impulses, held: self.locked, rubbed: 0, directions: [0.0; MOST_CONTACTS] })
@@ -234,7 +263,7 @@ impl<'a, T: Real> Striking<'a, T> {
             for by in 0..self.contacts.stops() {
                 size += (self.contacts.mobility(of, by).to_f64() * number(impulses, by)).abs();
             }
-            share::<T>(ROUNDING) * size
+            number(&self.sizes.slowest, of) + share::<T>(ROUNDING) * size
         })
     }
 }

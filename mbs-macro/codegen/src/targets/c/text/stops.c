@@ -5,15 +5,19 @@ static int NAME_strike_stops(
     const struct NAME *const m = run->mechanism;
     struct NAME_state *const at = &run->state;
     const struct NAME_reactions still = {0};
-SMOOTH     struct NAME_answer it = {pushed, halves, {0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, 0, {0}, {0}, {0}, {0}};
-RUBS     struct NAME_answer it = {pushed, halves, {0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, 0, {0}, {0}, {0}, {0}, {0}, {0}, {{0}, {0}}};
+    struct NAME_answer it = {0};
     struct NAME_coordinates of_q = {0}, of_v = {0}, led = {0};
     struct NAME_constraints rows = {0};
     real now[3 * CAPS_ROWS] = {0}, was[3 * CAPS_ROWS] = {0}, rated[3 * CAPS_ROWS] = {0};
     real contacts[CAPS_CONTACTS] = {0}, shifts[CAPS_ROWS] = {0};
     const double size = (double)NAME_largest(NAME_elements(&at->q), CAPS_LINES);
+    const struct NAME_constraints no_feedback = {0};
+    struct NAME_reactions free = {0};
+    double speed = (double)NAME_largest(NAME_elements(&before->v), CAPS_COORDINATES);
     int set[CAPS_ROWS], is_closed = 0;
 RUBS     int closed[CAPS_ROWS] = {0}, held[CAPS_ROWS];
+    it.pushed = pushed;
+    it.halves = halves;
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         it.closed[stop] = pushed[stop] || now[3 * stop] <= 0;
@@ -25,6 +29,15 @@ RUBS         closed[stop] = it.closed[stop];
         return CAPS_OK;
     }
     NAME_compute_gaps(m, before->t, &before->q, &before->v, &still, was);
+    NAME_compute_reactions(
+        m, at->t, &at->q, &at->v, &run->inputs, &no_feedback, &free.acceleration, &free.multipliers);
+    NAME_compute_gaps(m, at->t, &at->q, &at->v, &free, rated);
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        it.pressing[row] = run->step * rated[3 * row + 2];
+    }
+    if ((double)NAME_largest(NAME_elements(&at->v), CAPS_COORDINATES) > speed) {
+        speed = (double)NAME_largest(NAME_elements(&at->v), CAPS_COORDINATES);
+    }
     /* velocities as joints at the end have them: those of the start change by forces alone, and stops that depend on each
        other do not contradict each other by what joints are off */
     for (int end = 0; end < 2; end++) {
@@ -43,7 +56,10 @@ RUBS         closed[stop] = it.closed[stop];
     NAME_compute_contacts(m, at->t, &at->q, contacts);
     NAME_find_locked(run, it.locked);
     for (int row = 0; row < CAPS_ROWS; row++) {
-        it.allowed[row] = NAME_allowed(size, NAME_slope(contacts, row));
+        const double slope = NAME_slope(contacts, row);
+        it.allowed[row] = NAME_allowed(size, slope);
+        it.nearest[row] = NAME_rounding(1e-14) * size * slope;
+        it.slowest[row] = NAME_rounding(1e-14) * speed * slope;
         it.gap_now[row] = now[3 * row];
     }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {

@@ -78,8 +78,12 @@ struct NAME_answer {
     /* the part of the step behind the closing of a gap, and what an impulse moves positions by */
     real rest[CAPS_ROWS], shift[CAPS_ROWS];
     int closed[CAPS_ROWS], held[CAPS_ROWS], locked[CAPS_ROWS], is_impact;
-    /* how far gaps may be behind their stops where modes lead them */
-    double allowed[CAPS_ROWS];
+    /* how far gaps may be behind their stops where modes lead them, and up to which they are closed */
+    double allowed[CAPS_ROWS], nearest[CAPS_ROWS];
+    /* the rates that are rounding of velocities, and those below which gaps do not move */
+    double slowest[CAPS_ROWS], still[CAPS_ROWS];
+    /* how the rates change in a step without the forces of stops */
+    real pressing[CAPS_ROWS];
     real impulses[CAPS_ROWS], moved[CAPS_ROWS], gaps[CAPS_ROWS];
 RUBS     /* the directions in which frictions slid at its start, and in which they slide then */
 RUBS     double slid[CAPS_ROWS], directions[CAPS_ROWS];
@@ -153,7 +157,8 @@ RUBS     struct NAME_struck struck;
         const real first = it->pushed[stop] ? second[stop] : it->now[stop] - it->rest[stop] * change[stop];
         approach[stop] = turn == 0 ? first : rates[stop];
     }
-    if (!NAME_hold_back(contacts, it->closed, it->locked, change, taken)) {
+    if (!NAME_hold_back(contacts, it->closed, it->locked, it->pressing, taken)
+        && !NAME_hold_back(contacts, it->closed, it->locked, change, taken)) {
         if (!NAME_is_any(it->locked)) {
             return 0;
         }
@@ -164,10 +169,12 @@ RUBS     struct NAME_struck struck;
     NAME_rebound(run, approach, thrown);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         const real later = turn == 0 ? it->rest[stop] * change[stop] : 0;
-        /* what closes in the last of all impacts is rested on */
-        it->held[stop] = it->closed[stop] && (turn == 15 || thrown[stop] <= taken[stop]);
+        const double least = (double)taken[stop] + it->still[stop];
+        /* what is closed in the last of all impacts is rested on; where more stops press than hold, rounding is all that the force
+           at one takes back */
+        it->held[stop] = it->closed[stop] && (turn == 15 || (double)thrown[stop] <= least);
         /* a force that presses for a step is no impact */
-        it->is_impact = it->is_impact || (hit[stop] && -approach[stop] > taken[stop]);
+        it->is_impact = it->is_impact || (hit[stop] && -(double)approach[stop] > least);
         const real target = it->held[stop] ? 0 : thrown[stop] + later;
         wanted[stop] = rates[stop] - (target > 0 ? target : 0);
     }
@@ -228,9 +235,10 @@ static int NAME_find_impulses(const struct NAME_run *run, const real *contacts, 
             for (int by = 0; by < CAPS_ROWS; by++) {
                 size = size + fabs((double)NAME_mobility(contacts, stop, by) * (double)it->impulses[by]);
             }
-            it->closed[stop] = it->closed[stop] || it->gaps[stop] <= 0;
-            closing[stop] = it->closed[stop] && (double)rates[stop] <= NAME_rounding(1e-12) * size;
-            hit[stop] = closing[stop] && (double)rates[stop] < -(NAME_rounding(1e-12) * size);
+            it->still[stop] = it->slowest[stop] + NAME_rounding(1e-12) * size;
+            it->closed[stop] = it->closed[stop] || (double)it->gaps[stop] <= it->nearest[stop];
+            closing[stop] = it->closed[stop] && (turn == 15 || (double)rates[stop] <= it->still[stop]);
+            hit[stop] = closing[stop] && (double)rates[stop] < -it->still[stop];
             is_hit = is_hit || hit[stop];
         }
         if (turn == 16 || !is_hit) {

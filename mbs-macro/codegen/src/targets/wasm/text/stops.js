@@ -179,11 +179,14 @@ class AtStops extends Modes {
     return this.complementary(set, change, locked).map((force, stop) => this.mobility(stop, stop) * force);
   }
 
-  // The same, or nothing where modes lead to what is closed.
-  takenIfAny(closed, change, locked) {
-    if (!locked.includes(true)) return this.taken(closed, change, locked);
-    const set = closed.map((it, row) => it || locked[row]), forces = this.answerIfAny(set, change, locked);
-    return this.each((stop) => (forces ? this.mobility(stop, stop) * forces[stop] : 0));
+  // The same of the first change that has an answer, or nothing where modes lead to what is closed.
+  takenIfAny(closed, changes, locked) {
+    const set = closed.map((it, row) => it || locked[row]);
+    for (const change of changes) {
+      const forces = this.answerIfAny(set, change, locked);
+      if (forces) return forces.map((force, stop) => this.mobility(stop, stop) * force);
+    }
+    return locked.includes(true) ? this.each(() => 0) : this.failAtStop("IMPACT", set.indexOf(true));
   }
 
   // Adds what the stops do that are rested on; the growth of the responses.
@@ -263,34 +266,37 @@ class AtStops extends Modes {
   }
 
   // The impulses at the stops that are closed at the end of a step, or that impulses close, one impact after the other.
-  answer(closed, { before, now, gap, rest, shift, pushed, halves, slid }) {
+  answer(closed, { before, now, gap, rest, shift, pushed, halves, slid, pressing, speed }) {
     const none = this.each(() => 0), bounds = this.bounds(), directions = this.each(() => 0);
     const change = now.map((rate, stop) => rate - before[stop]), locked = this.locked();
-    const size = largest(this.q.subarray(0, this.tables.lines));
+    const size = largest(this.q.subarray(0, this.tables.lines)), slopes = this.each((row) => this.slope(row));
+    const nearest = slopes.map((slope) => 1e-14 * size * slope), slowest = slopes.map((slope) => 1e-14 * speed * slope);
     let impulses = this.each(() => 0), held = this.each(() => false), isImpact = false;
     for (let turn = 0; ; turn++) {
       const moved = impulses.map((impulse, stop) => impulse * shift[stop]);
       const gaps = this.changed(gap, moved), rates = this.changed(now, impulses);
-      gaps.forEach((it, stop) => { closed[stop] = closed[stop] || (this.isStop(stop) && it <= 0); });
-      const still = rates.map((_, stop) => 1e-12 * impulses.reduce(
+      gaps.forEach((it, stop) => { closed[stop] = closed[stop] || (this.isStop(stop) && it <= nearest[stop]); });
+      const still = rates.map((_, stop) => slowest[stop] + 1e-12 * impulses.reduce(
         (size, impulse, by) => size + Math.abs(this.mobility(stop, by) * impulse),
         Math.abs(before[stop]) + Math.abs(now[stop])));
-      const closing = closed.map((it, stop) => it && rates[stop] <= still[stop]);
+      const closing = closed.map((it, stop) => it && (turn === 15 || rates[stop] <= still[stop]));
       const hit = closing.map((it, stop) => it && rates[stop] < -still[stop]);
       if (turn === 16 || !hit.includes(true)) {
         held = held.map((it, stop) => closing[stop] && it && impulses[stop] > 0);
         return { impulses, moved, gaps, isImpact, held, directions: this.moving(directions, rates, impulses) };
       }
-      const taken = this.takenIfAny(closed, change, locked);
+      const taken = this.takenIfAny(closed, [pressing, change], locked);
       // of a rest what its second half leaves
       const second = this.changed(this.each(() => 0), halves);
       const first = now.map((rate, stop) => rate + (pushed[stop] ? second[stop] : -(rest[stop] * change[stop])));
       const approach = turn === 0 ? first : rates;
       const thrown = this.rebounds(approach);
-      // what closes in the last of all impacts is rested on
-      held = closed.map((it, stop) => it && (turn === 15 || thrown[stop] <= taken[stop]));
+      const least = taken.map((taken, stop) => taken + still[stop]);
+      // what is closed in the last of all impacts is rested on; where more stops press than hold, rounding is all that the force at
+      // one takes back
+      held = closed.map((it, stop) => it && (turn === 15 || thrown[stop] <= least[stop]));
       // a force that presses for a step is no impact
-      isImpact = isImpact || hit.some((it, stop) => it && -approach[stop] > taken[stop]);
+      isImpact = isImpact || hit.some((it, stop) => it && -approach[stop] > least[stop]);
       const wanted = rates.map((rate, stop) => {
         const later = turn === 0 ? rest[stop] * change[stop] : 0, isStill = held[stop] || locked[stop] || this.stopOf(stop) >= 0;
         const target = isStill ? 0 : thrown[stop] + later;
@@ -316,6 +322,8 @@ class AtStops extends Modes {
     m.trialQ.set(before.q);
     m.trialV.set(before.v);
     const was = this.gapsAt(before.t, m.trialQ, m.trialV, m.unmoved);
+    m.call("reactions", this.t, this.q, this.v, this.inputs, m.none, m.reactions, m.reactions.subarray(n));
+    const pressing = this.gapsAt(this.t, this.q, this.v, m.reactions).map(({ second }) => this.h * second);
     // velocities as joints at the end have them: those of the start change by forces alone, and stops that depend on each
     // other do not contradict each other by what joints are off
     const [rateBefore, rateNow] = [before.v, this.v].map((velocities) => {
@@ -341,6 +349,8 @@ class AtStops extends Modes {
       shift: shift.map((_, row) => shift[ofStop(row)]),
       pushed,
       halves,
+      pressing,
+      speed: Math.max(largest(before.v), largest(this.v)),
       slid: this.each((row) => (this.stopOf(row) < 0 ? 0 : this.direction(row))),
     });
     // what has stuck in the whole step is where it was
