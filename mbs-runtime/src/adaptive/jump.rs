@@ -93,7 +93,8 @@ impl<D: Dynamics> Jump<'_, D> {
         });
         let mut lambda = dynamics.no_feedback();
         let judging = Judging { off, room: [a.as_mut(), lambda.as_mut()] };
-        let (due, _) = modes::due(equations, at, inputs, judging, true);
+        // where a mode has been entered, forces are those behind its impulse
+        let (due, _) = modes::due(equations, at, inputs, judging, entered == 0);
         [pulls, pushes, closed, entered | due << MOST_CONTACTS]
     }
 
@@ -233,18 +234,26 @@ impl<D: Dynamics> Jump<'_, D> {
         for turn in 1..=IN_SEQUENCE {
             let rate = self.gaps().rate;
             let moves = |stop: usize| !is_still(&rate, &still, stop);
-            let closing =
-                those(count, |stop| has(closed, stop) && !(number(&rate, stop) > 0.0 && moves(stop)));
+            let is_last = turn == IN_SEQUENCE;
+            let opens = |stop: usize| number(&rate, stop) > 0.0 && moves(stop);
+            let closing = those(count, |stop| has(closed, stop) && (is_last || !opens(stop)));
             if those(MOST_CONTACTS, |row| has(closing | locked, row) && moves(row)) == 0 {
                 break;
             }
             // an accumulation within one moment ends as others do
-            let settled = stopping.stuck | if turn == IN_SEQUENCE { closing } else { 0 };
+            let settled = stopping.stuck | if is_last { closing } else { 0 };
             let (more, next) = self.impact(closing, &rate, (settled, stopping))?;
             for (impulse, more) in impulses.iter_mut().zip(more) {
                 *impulse = *impulse + more;
             }
             (is_impact, flight) = (true, next);
+        }
+        // nothing answers stops that contradict each other
+        let rate = self.gaps().rate;
+        let is_passed =
+            |stop: &usize| has(closed, *stop) && number(&rate, *stop) < -JUMPS * number(&still, *stop);
+        if let Some(stop) = (0..count).find(is_passed) {
+            return Err(self.unanswered(bit(stop)));
         }
         // a stop that pulls is left, and so is one from which the impact throws back
         let pulling = if is_impact { 0 } else { reached & held & !stopping.stuck };

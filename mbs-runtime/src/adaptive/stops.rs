@@ -88,7 +88,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let known = among(self.happened.all | self.happened.judged, self.dynamics.equations().info());
         let reached = pulled & !kept | closed & !known | begun;
         if reached != 0 {
-            return self.jump_at(reached);
+            let is_entered = begun & !(u32::MAX << MOST_CONTACTS) != 0;
+            return self.jump_at(reached, !is_entered);
         }
         if !self.dynamics.equations().info().modes.transitions.is_empty() {
             self.with_memories(|equations, at, inputs, room| {
@@ -105,7 +106,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// [`Error::Impact`].
     pub(super) fn jump(&mut self) -> Result<(), Error> {
         let reached = core::mem::take(&mut self.stopping.reached);
-        if reached == 0 { Ok(()) } else { self.jump_at(reached) }
+        if reached == 0 { Ok(()) } else { self.jump_at(reached, true) }
     }
 
     /// Rests on the stops that the start touches, and bounces off them.
@@ -266,10 +267,10 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// The jump at stops that are reached: those whose gap has closed, and those that pull; and those that conditions ask for
     /// by the forces behind it.
-    fn jump_at(&mut self, mut reached: u32) -> Result<(), Error> {
+    fn jump_at(&mut self, mut reached: u32, mut are_forces_known: bool) -> Result<(), Error> {
         let off = self.stopping.off;
         for _ in 0..=modes::IN_SEQUENCE {
-            self.jump_once(reached, true)?;
+            self.jump_once(reached, core::mem::replace(&mut are_forces_known, true))?;
             if !self.dynamics.equations().info().sees_forces() {
                 return Ok(());
             }

@@ -232,6 +232,22 @@ fn forces_behind_an_impulse_count() {
     }
 }
 
+/// Regression: what a clock enters takes its impulse before the force is judged that lets it go, also in the first moment.
+#[test]
+fn a_clock_enters_what_lets_go_at_once() {
+    for (offset, [x, v]) in [("offset 0.5 [s]", [1.35, 1.5]), ("", [1.6, 4.0])] {
+        let text = format!(
+            "Brake {{ dof = 1; body a (x) {{ mass = 1 [kg]; }} force f on x = 5 [N]; mode lock {{ rate l: der(x) = 0 [m/s]; }}
+                every 1 [s] {offset} {{ enter lock; }} when abs(lambda(l)) > 4 [N] {{ leave lock; }} start {{ der(x) = 1 [m/s]; }} }}"
+        );
+        for (run, allowed) in runs(&text, 0.8).into_iter().zip([1e-8, 1e-2]) {
+            let [q, rates, inputs] = run.expect("a run");
+            assert!((q[0] - x).abs() < allowed && (rates[0] - v).abs() < allowed, "{q:?} {rates:?}");
+            assert_eq!(inputs[0], 0.0, "{inputs:?}");
+        }
+    }
+}
+
 /// Forces of joints, too, and energies. A condition on forces that holds at the start begins there; others have begun already.
 #[test]
 fn conditions_see_all_forces() {
