@@ -218,6 +218,9 @@ impl Scope<'_> {
                     "the size of its force is `reaction({text})`; one multiplier is `lambda({first})`"
                 )));
             }
+            if let Some(error) = self.is_stop(&row) {
+                return Err(error);
+            }
             let error = Diagnostic::new(row.span(), format!("there is no constraint `{text}`"));
             return Err(match nearest(&text, self.rows.keys().map(String::as_str)) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),

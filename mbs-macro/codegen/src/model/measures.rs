@@ -9,6 +9,7 @@ use proc_macro2::Ident;
 
 use super::known::{Source, Typed};
 use super::names::{Place, Scope};
+use super::stops::impulse_of;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
 use crate::mechanics::norm;
 use crate::syntax::{Attachment, EnergyRole, Formula, FormulaKind};
@@ -93,13 +94,26 @@ impl Scope<'_> {
         Ok(Typed { expr, dimension: Some(Dimension::of(1, 2, -3)) })
     }
 
+    /// The error for the force of a stop.
+    pub(super) fn is_stop(&self, asked: &Ident) -> Option<Diagnostic> {
+        let impulse = impulse_of(asked);
+        self.values.contains_key(&impulse.to_string()).then(|| {
+            let help = format!(
+                "`{asked}` is 1 while it is rested on, and `{impulse}` the sum of the impulses of its impacts; where a force is \
+                 needed, take a stiff end: `force end on x = -k*ramp(x - gap);`"
+            );
+            Diagnostic::new(asked.span(), format!("`{asked}` is a stop, whose force has no value")).help(help)
+        })
+    }
+
     /// `force(s)`, `torque(m)`: the scalar that an element exerts.
     fn exerted(&mut self, name: &Ident, of: &Formula, wanted: Dimension) -> Result<Typed, Diagnostic> {
         self.only_in_outputs(name)?;
         let asked = name_of(name, of)?;
         let text = asked.to_string();
         let Some(source) = self.sources.get(&text) else {
-            return Err(unknown(asked, "force or element", self.sources.keys()));
+            let error = || unknown(asked, "force or element", self.sources.keys());
+            return Err(self.is_stop(asked).unwrap_or_else(error));
         };
         match source.exerts {
             Some(exerts) if exerts.dimension == wanted => {

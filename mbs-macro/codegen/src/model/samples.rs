@@ -133,8 +133,13 @@ impl Resolver<'_> {
             return None;
         }
         // those that a run has for itself have no names
-        let is_named = |name: &&str| self.scope.values.contains_key(*name);
-        let names = memories.iter().map(|memory| memory.quantity.name.as_str()).filter(is_named);
+        let is_named = |name: &str| self.scope.values.contains_key(name);
+        let names = (first..).zip(memories).filter(|(at, memory)| {
+            !self.is_of_run(*at)
+                && is_named(&memory.quantity.name)
+                && self.modes.iter().all(|mode| mode.memory != *at)
+        });
+        let names = names.map(|(_, memory)| memory.quantity.name.as_str());
         let help = match nearest(&text, names.clone()) {
             Some(near) => format!("did you mean `{near}`?"),
             None if names.clone().next().is_none() => {
@@ -146,6 +151,13 @@ impl Resolver<'_> {
         None
     }
 
+    /// True of the memories that stops and frictions set.
+    fn is_of_run(&self, memory: usize) -> bool {
+        let of_stops = self.stops.iter().map(|stop| stop.memory);
+        let mut of_contacts = of_stops.chain(self.frictions.iter().map(|friction| friction.memory));
+        of_contacts.any(|own| own == memory || own + 1 == memory)
+    }
+
     /// A memory that no stop sets.
     fn settable(&mut self, name: &Ident, memory: usize, symbol: Symbol) -> Option<(usize, Symbol)> {
         if self.modes.iter().any(|mode| mode.memory == memory) {
@@ -153,9 +165,7 @@ impl Resolver<'_> {
             self.errors.push(Diagnostic::new(name.span(), format!("`{name}` is a mode")).help(help));
             return None;
         }
-        let of_stops = self.stops.iter().map(|stop| stop.memory);
-        let mut of_contacts = of_stops.chain(self.frictions.iter().map(|friction| friction.memory));
-        if of_contacts.all(|own| own != memory && own + 1 != memory) {
+        if !self.is_of_run(memory) {
             return Some((memory, symbol));
         }
         let message = format!("`{name}` is set by the run, and no clock sets it");

@@ -17,7 +17,7 @@ use super::declare::quantity;
 use super::known::Value;
 use super::names::Place;
 use super::resolver::Resolver;
-use super::{Meaning, Requirement, Stop};
+use super::{Contact, Meaning, Requirement, Stop};
 use crate::diagnostics::{Diagnostic, listing, nearest};
 use crate::mechanics::elements::Sticks;
 use crate::quantity::{Comparison, Quantity, Setting};
@@ -64,6 +64,9 @@ impl Resolver<'_> {
         let values = self.stop_properties(name, dimension, properties);
         let Some(Properties { restitution, settle, friction }) = values else { return };
         let contact = self.contact(gap);
+        if friction.is_some_and(|(_, along)| !self.crosses(name, &contact, along)) {
+            return;
+        }
         let unit = Unit { scale: Number::ONE, dimension };
         let quantity = quantity(name, "", &dimension.si_unit(), unit);
         let span = name.span();
@@ -237,6 +240,20 @@ impl Resolver<'_> {
         None
     }
 
+    /// Refuses a way of sliding that is the way of the gap.
+    fn crosses(&mut self, name: &Ident, gap: &Contact, along: Expr) -> bool {
+        let slopes = self.contact(along).slopes;
+        let arena = &mut self.scope.arena;
+        let opposite: Vec<_> = slopes.iter().map(|&(at, slope)| (at, arena.neg(slope))).collect();
+        if slopes != gap.slopes && opposite != gap.slopes {
+            return true;
+        }
+        let message = format!("what rests on `{name}` does not move along its gap");
+        let help = "write the way across it, as in `stop floor: foot.y >= 0 [m] { friction = 0.3; along = foot.x; … }`";
+        self.errors.push(Diagnostic::new(name.span(), message).help(help));
+        false
+    }
+
     /// Asks that a value is from 0 to 1.
     pub(super) fn within_one(&mut self, what: &str, value: Expr, span: Span) {
         let (zero, one) = (self.scope.arena.zero(), self.scope.arena.one());
@@ -308,6 +325,6 @@ fn unknown_property(property: &Ident) -> Diagnostic {
 }
 
 /// The name of the memory that sums up impulses.
-fn impulse_of(name: &Ident) -> Ident {
+pub(super) fn impulse_of(name: &Ident) -> Ident {
     Ident::new(&format!("{}_impulse", name.to_string().trim_start_matches("r#")), name.span())
 }

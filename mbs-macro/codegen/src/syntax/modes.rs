@@ -5,7 +5,7 @@ use syn::parse::ParseStream;
 use syn::{Error, Result, Token, token};
 
 use super::choices::condition;
-use super::words::{name, path, semicolon};
+use super::words::{helped, name, path, semicolon};
 use super::{Condition, Formula, Item, ItemKind, Set};
 use crate::mechanics::joints::JOINTS;
 
@@ -50,7 +50,12 @@ pub(super) fn head(input: ParseStream<'_>) -> Result<(Ident, Option<Formula>)> {
 
 /// The condition of a `when`.
 pub(super) fn moment(input: ParseStream<'_>) -> Result<Condition> {
-    condition(input, "when x < 0 [m] { enter latched; }")
+    let found = condition(input, "when x < 0 [m] { enter latched; }")?;
+    if input.peek(Token![&&]) || input.peek(Token![||]) {
+        let help = "`max(a, b) < 0` asks for both of `a < 0` and `b < 0`, and `min(a, b) < 0` for one of them; give both one unit";
+        return Err(helped(input.span(), "a condition of a `when` is one comparison", help));
+    }
+    Ok(found)
 }
 
 /// True of a word that begins a constraint, which a mode may have.
