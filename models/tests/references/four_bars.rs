@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use mbs_runtime::{Error, Kinematics, NoComponents, Simulation};
 use models::{FourBar, FourBarFree, FourBarParameters};
-use paths::{Instant, Single, through_every_path};
+use paths::{Instant, through_fused_path};
 
 use super::{EXACT, along, near};
 
@@ -57,7 +57,7 @@ fn free_crank_has_the_speed_of_its_energy() -> Result<(), Error> {
         Ok::<_, Error>((2.0 * driven.kinetic_energy(&state), driven.potential_energy(&state)))
     };
     let start = |step| Simulation::new(FourBarFree::declared(), step);
-    through_every_path("free four-bar", 1e-4, Single::Longer(4.0), start, |case, run| {
+    through_fused_path("free four-bar", 1e-4, start, |case, run| {
         let mut kinematics = Kinematics::new(driven)?;
         let omega = run.now()?.v.theta2;
         let (inertia, height) = inertia_and_height(&mut kinematics, 0.0)?;

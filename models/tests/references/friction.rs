@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use mbs_runtime::{Error, Simulation};
 use models::{BlockOnIncline, BlockOnInclineParameters};
-use paths::{Instant, Single, through_double_paths, through_every_path};
+use paths::{Instant, through_fused_path};
 
 use super::EXACT;
 
@@ -41,7 +41,7 @@ fn block_slides_down() -> Result<(), Error> {
     let late = c * w * (2.0 * s / (s - c)).ln() / (s + c);
     assert!(late > 100.0 * heun(law), "the smooth law shows");
     let BlockOnInclineParameters { mass, slope, .. } = BlockOnInclineParameters::<f64>::default();
-    through_every_path("block, sliding", STEP, Single::Longer(10.0), start, |case, run| {
+    through_fused_path("block, sliding", STEP, start, |case, run| {
         run.advance_to(1.0)?;
         let Instant { acceleration, outputs, .. } = run.now()?;
         let slowly = -G * (s - c) * slope.cos();
@@ -57,7 +57,7 @@ fn block_slides_down() -> Result<(), Error> {
 /// passed by ∫ v c (1 − tanh(v/w))/((s + c tanh(v/w))(s + c)g) dv, at most
 /// c w² π²/(24 s (s + c) g).
 ///
-/// That is 3e-8 m here, not to be seen in single precision.
+/// That is 3e-8 m here.
 #[test]
 fn block_climbs_as_far_as_it_can() -> Result<(), Error> {
     let speed = 2.0;
@@ -67,7 +67,7 @@ fn block_climbs_as_far_as_it_can() -> Result<(), Error> {
     let further = c * w * w * PI * PI / (24.0 * s * (s + c) * G);
     // the error in speed while it is below 3 w, and half a step to the highest point
     let tolerance = heun(law) * 3.0 * w / (G * s) + G * (s + c) * STEP * STEP / 8.0;
-    through_double_paths("block, climbing", STEP, start, |case, run| {
+    through_fused_path("block, climbing", STEP, start, |case, run| {
         let (mut highest, mut speed) = (0.0_f64, speed);
         while speed > 0.0 {
             run.advance(1)?;
@@ -83,13 +83,12 @@ fn block_climbs_as_far_as_it_can() -> Result<(), Error> {
 
 /// Stuck, it creeps with tanh(v/w) = tan α/μ. The speed settles with the time
 /// constant w/(g c (1 − tan²α/μ²)), 0.3 ms; what is left is what the feedback
-/// takes out in a step of the rounding of the position. In single precision that
-/// is more than the creep.
+/// takes out in a step of the rounding of the position.
 #[test]
 fn block_stays_but_for_its_creep() -> Result<(), Error> {
     let (start, [s, c, w]) = block(0.5, 0.8);
     let stopped = 0.5 * 0.5 / (2.0 * G * (s + c));
-    through_double_paths("block, creeping", STEP, start, |case, run| {
+    through_fused_path("block, creeping", STEP, start, |case, run| {
         run.advance_to(0.2)?;
         let outputs = run.now()?.outputs;
         let rounding = 10.0 * f64::EPSILON * outputs.distance / STEP;

@@ -6,13 +6,8 @@
 //! few hundred along their motion, so 1e-12 of their size is safe. The
 //! slider-cranks are compared in `paper.rs` and in the crate `tests`.
 //!
-//! Motions are integrated on every path that a step can take (crate `paths`): in stages,
-//! fused, in packs of 4 and 8 lanes and, in single precision, alone and in packs of 8 and
-//! 16 lanes. There steps are longer, and the tolerances of Heun's method wider by the
-//! square of that, so that rounding does not hide the method. Not in single precision are
-//! the modes, whose amplitudes of 1e-5 to 1e-4 rad are no more than a thousand times its
-//! ε, and rows of four-bars, which are singular to seven digits where they lie flat. What
-//! is compared at an instant needs no steps.
+//! Motions are integrated by fused steps. The crate `long` holds references on every path that a step can take, in lanes and in
+//! single precision too.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use mbs_runtime::{Dual, Error, NoComponents, Real, Simulation};
 use models::{ElasticCrank, ElasticCrankParameters};
-use paths::{Single, through_every_path};
+use paths::through_fused_path;
 
 use super::{found, near, to_tolerance};
 
@@ -128,13 +128,13 @@ fn elastic_crank_bends() -> Result<(), Error> {
     Ok(())
 }
 
-/// On every path. Heun's error in phase is (ωh)²/6 of ωt, 1.1e-4 of 64 rad at 50 ms with steps of 20 µs.
+/// Heun's error in phase is (ωh)²/6 of ωt, 1.1e-4 of 64 rad at 50 ms with steps of 20 µs.
 #[test]
 fn elastic_crank_on_every_path() -> Result<(), Error> {
     let p = ElasticCrankParameters::default();
     let deflections = deflections(&p, 50);
     let start = |step| Simulation::new(ElasticCrank::declared(), step);
-    through_every_path("elastic-crank", 2e-5, Single::Longer(4.0), start, |case, run| {
+    through_fused_path("elastic-crank", 2e-5, start, |case, run| {
         for at in [10, 30, 50] {
             run.advance_to(1e-3 * f64::from(at))?;
             case.near("w", run.now()?.q.w, deflections[at as usize][0], 1e-5);

@@ -2,7 +2,7 @@
 
 use mbs_runtime::{Error, Simulation};
 use models::{CartPole, CartPoleParameters, PathFollower, PathFollowerParameters};
-use paths::{Single, through_every_path};
+use paths::through_fused_path;
 
 use super::{near, to_tolerance};
 
@@ -75,7 +75,7 @@ fn cart_pole_is_balanced() -> Result<(), Error> {
     let p = CartPoleParameters::default();
     let samples = cart_pole(&p, 2.0);
     let start = |step| Simulation::new(CartPole::declared(), step);
-    through_every_path("cart-pole", 5e-4, Single::Longer(4.0), start, |case, run| {
+    through_fused_path("cart-pole", 5e-4, start, |case, run| {
         for at in [50, 100, 200] {
             run.advance_to(0.01 * f64::from(at))?;
             let (now, [x, theta, _, _, u]) = (run.now()?, samples[at as usize]);

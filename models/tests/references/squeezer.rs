@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use mbs_runtime::{Error, Mechanism, Simulation};
 use models::{AndrewsSqueezer, AndrewsSqueezerInputs};
-use paths::{Single, through_every_path};
+use paths::through_fused_path;
 
 /// Heun's error in the angles is 4e-7 rad at 1e-6 s, and with reduced states 3.3e-6 (both fall with h²); the
 /// printed reference is good to 1e-9. Roundings in 3e4 steps, ε/2 of 16 rad each, add up at random to √3e4
@@ -14,7 +14,7 @@ fn squeezer_is_where_it_ought_to_be() -> Result<(), Error> {
     let of_method = if AndrewsSqueezer::<f64>::INFO.has_reduced_states() { 5e-6 } else { 1e-6 };
     let inputs = AndrewsSqueezerInputs { motor_torque: 0.033 };
     let start = |step| Simulation::builder(AndrewsSqueezer::declared(), step).inputs(inputs).build();
-    through_every_path("andrews_squeezer", 1e-6, Single::Longer(15.0), start, |case, run| {
+    through_fused_path("andrews_squeezer", 1e-6, start, |case, run| {
         let lambda = run.now()?.multipliers;
         case.near_within("λ1 at the start", lambda.e3_x, 98.56687039624109, 0.0, 1e-10);
         case.near_within("λ2 at the start", lambda.e3_y, -6.122688344255662, 0.0, 1e-10);

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use mbs_runtime::{Direction, Error, Mechanism, Simulation, State};
 use models::{BoomCylinder, BoomCylinderParameters, Brake, BrakeParameters};
-use paths::through_double_paths;
+use paths::through_fused_path;
 
 use super::{EXACT, found, near, to_tolerance};
 
@@ -20,7 +20,7 @@ fn brake_heats_its_disc() -> Result<(), Error> {
     let falling = p.inertia * slowing * slowing / p.capacity;
     let step = 1e-3;
     let start = |step| Simulation::new(Brake::new(p)?, step);
-    through_double_paths("brake without fade", step, start, |case, run| {
+    through_fused_path("brake without fade", step, start, |case, run| {
         for t in [1.0, 3.0, 5.0, 7.0, 9.0] {
             run.advance_to(t)?;
             let (now, left) = (run.now()?, (-t / tau).exp());
@@ -148,7 +148,7 @@ fn boom_rests_on_its_oil() -> Result<(), Error> {
         let p = BoomCylinderParameters { plan: 0.0, load_mass, phi0, ..Default::default() };
         let at_start = boom(&p, phi0);
         let start = |step| Simulation::new(BoomCylinder::new(p)?, step);
-        through_double_paths("boom at rest", 0.5e-3, start, |case, run| {
+        through_fused_path("boom at rest", 0.5e-3, start, |case, run| {
             run.advance_to(1.0)?;
             let now = run.now()?;
             case.near("angle", now.q.phi, phi0, EXACT);

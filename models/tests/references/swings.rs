@@ -6,7 +6,7 @@ use models::{
     Metronome, MetronomeParameters, Pendulum, SpringMassDamper, SpringMassDamperInputs,
     SpringMassDamperParameters, Suspension, SuspensionParameters,
 };
-use paths::{Single, through_double_paths, through_every_path};
+use paths::through_fused_path;
 
 use super::{EXACT, near};
 
@@ -18,7 +18,7 @@ const G: f64 = 9.81;
 fn pendulum_has_its_period_and_tension() -> Result<(), Error> {
     let period = 4.0 * (1.0 / G).sqrt() * 1.854074677301372;
     let start = |step| Simulation::new(Pendulum::declared(), step);
-    through_every_path("pendulum", period / 8192.0, Single::Longer(16.0), start, |case, run| {
+    through_fused_path("pendulum", period / 8192.0, start, |case, run| {
         run.advance_to(period / 4.0)?;
         let lowest = run.now()?;
         case.near("tension in the lowest position", lowest.outputs.tension, 3.0 * G, 1e-5);
@@ -42,7 +42,7 @@ fn double_pendulum_has_its_modes() -> Result<(), Error> {
         let omega_squared = factor * G / parameters.length1;
         let period = std::f64::consts::TAU / omega_squared.sqrt();
         let start = |step| Simulation::new(DoublePendulum::new(parameters)?, step);
-        through_double_paths("double pendulum", period / 8192.0, start, |case, run| {
+        through_fused_path("double pendulum", period / 8192.0, start, |case, run| {
             let a = run.now()?.acceleration;
             let reference = -omega_squared * AMPLITUDE;
             case.near("upper", a.angle1 / reference, 1.0, 1e-8);
@@ -98,7 +98,7 @@ fn damped_oscillation_is_the_closed_form() -> Result<(), Error> {
     let delta = p.damping / (2.0 * p.mass);
     let nu = (omega * omega - delta * delta).sqrt();
     let start = |step| Simulation::new(SpringMassDamper::declared(), step);
-    through_every_path("damped oscillation", STEP, Single::Longer(20.0), start, |case, run| {
+    through_fused_path("damped oscillation", STEP, start, |case, run| {
         for k in 1..=20 {
             let t = 0.1 * f64::from(k);
             run.advance_to(t)?;
@@ -117,7 +117,7 @@ fn a_constant_push_is_held_by_the_spring() -> Result<(), Error> {
     let p: SpringMassDamperParameters<f64> = SpringMassDamperParameters::default();
     let push = SpringMassDamperInputs { push: 8.0 };
     let start = |step| Simulation::builder(SpringMassDamper::declared(), step).inputs(push).build();
-    through_every_path("constant push", 1e-3, Single::Rounding, start, |case, run| {
+    through_fused_path("constant push", 1e-3, start, |case, run| {
         run.advance_to(40.0)?;
         let displacement = push.push / p.stiffness;
         case.near("displacement", run.now()?.q.x, displacement, displacement * EXACT);
@@ -145,7 +145,7 @@ fn metronome_beats_as_its_spring_and_weight_say() -> Result<(), Error> {
     let p = MetronomeParameters { release: 1e-4, ..Default::default() };
     let start = |step| Simulation::new(Metronome::new(p)?, step);
     let period = std::f64::consts::TAU / start(1e-3)?.outputs()?.beat;
-    through_double_paths("metronome", period / 8192.0, start, |case, run| {
+    through_fused_path("metronome", period / 8192.0, start, |case, run| {
         run.advance_to(period / 4.0)?;
         case.near("after a quarter", run.now()?.q.phi / p.release, 0.0, 1e-6);
         run.advance_to(period)?;

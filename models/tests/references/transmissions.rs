@@ -5,7 +5,7 @@ use models::{
     DcMotor, DcMotorInputs, DcMotorParameters, GearedMotor, GearedMotorInputs, GearedMotorParameters,
     PlanetaryGear, PlanetaryGearInputs,
 };
-use paths::{Instant, Single, through_every_path};
+use paths::{Instant, through_fused_path};
 
 use super::{EXACT, near};
 
@@ -43,7 +43,7 @@ fn planetary_gear_has_the_ratio_of_willis() -> Result<(), Error> {
 
         let end = p.speed + 0.1 * sun;
         let largest = end.abs().max(p.speed);
-        through_every_path("planetary gear", 1e-4, Single::Longer(20.0), start, |case, run| {
+        through_fused_path("planetary gear", 1e-4, start, |case, run| {
             run.advance_to(0.1)?;
             let now = run.now()?;
             let truncation = largest * (share * largest * 1e-4).powi(2);
@@ -73,7 +73,7 @@ fn geared_motor_runs_up() -> Result<(), Error> {
         let (torque, tau) = (p.stall - n * load, inertia / damping);
         let limit = torque / damping;
         let tolerance = (limit - speed).abs() * (step / tau).powi(2) / 12.0;
-        through_every_path("geared motor", step, Single::Longer(20.0), start, |case, run| {
+        through_fused_path("geared motor", step, start, |case, run| {
             for k in 0..20_u32 {
                 let t = 0.05 * f64::from(k);
                 run.advance_to(t)?;
@@ -103,7 +103,7 @@ fn dc_motor_holds_its_speed() -> Result<(), Error> {
     let p: DcMotorParameters<f64> = DcMotorParameters::default();
     let inputs = DcMotorInputs { load: -0.1 };
     let start = |step| Simulation::builder(DcMotor::declared(), step).inputs(inputs).build();
-    through_every_path("motor at its speed", 2e-4, Single::Rounding, start, |case, run| {
+    through_fused_path("motor at its speed", 2e-4, start, |case, run| {
         run.advance_to(2.0)?;
         let now = run.now()?;
         case.near("speed", now.v.theta, p.wanted, p.wanted * EXACT);

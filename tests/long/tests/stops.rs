@@ -70,7 +70,7 @@ fn random_impacts_take_energy_and_keep_gaps() {
 #[test]
 fn random_impacts_of_constant_steps_take_energy_and_keep_gaps() {
     let (mut impacts, mut rests) = (0, 0);
-    let count = if EXHAUSTIVE { 250 } else { 50 };
+    let count = if EXHAUSTIVE { 125 } else { 50 };
     for number in 0..count {
         let (text, stops) = between_stops::random(number);
         let inputs = in_constant_steps(&compiled(&text), 200, stops);
@@ -86,7 +86,7 @@ fn random_impacts_of_constant_steps_take_energy_and_keep_gaps() {
 fn random_friction_at_stops_takes_energy() {
     // bodies that fly are integrated exactly, however far they turn in a step
     let tolerances = Tolerances { max_step: 0.02, ..TIGHT };
-    let count = if EXHAUSTIVE { 100 } else { 20 };
+    let count = if EXHAUSTIVE { 60 } else { 20 };
     let mut failures = Vec::new();
     for number in 0..count {
         let (text, stops) = thrown::random(number);
@@ -163,7 +163,7 @@ fn looked_at(
 /// never hold with more. To a tolerance and with constant steps.
 #[test]
 fn random_modes_take_energy_and_hold() {
-    let count = if EXHAUSTIVE { 150 } else { 60 };
+    let count = if EXHAUSTIVE { 100 } else { 60 };
     let mut held = 0;
     for number in 0..count {
         let (text, stops) = between_stops::random(number);
