@@ -10,8 +10,8 @@
 //! where ġ₀ and ġ are the rates of the gap with the velocities at the start and at the end of the step, both at the positions
 //! of the end. The gap closes after the part s of the step, as its values at both ends tell, with the rate ġ_s. Impulses act
 //! at gaps that close; where they make others close, the next impacts follow, each by Newton's law, so that no impulse gives
-//! energy. A rebound that the force at the stop takes back within one step is not flown: the stop is rested on, and its gap is
-//! made 0 by the shortest way by masses.
+//! energy. A rebound that the force at the stop takes back within one step, as h g̈ tells, is not flown: the stop is rested on, and
+//! its gap is made 0 by the shortest way by masses.
 //!
 //! Where a stop is rested on at the start of a step, half of the impulse of its force acts before the step and half of it
 //! behind (a symmetric splitting): between, velocities are those of the rest on average, and nothing moves. An impact at such
@@ -185,12 +185,13 @@ fn strike_stops<T: Real>(
     let restitutions = restitutions(equations);
     let (info, bounds) = (equations.info(), Bounds::of(equations));
     let slid = core::array::from_fn(|row| direction(info, inputs, row));
-    let stuck = rubbing::all_rubbing(info) & held(equations, inputs);
+    let held = held(equations, inputs);
+    let (rested, stuck) = (held & all_stops(info), held & rubbing::all_rubbing(info));
     let answered = Contacts::at(equations, (t, q), |contacts| {
         let sizes = Sizes::of(&contacts, size, speed);
         let (from, laws) = ((&contacts, info, locked), (&restitutions, &bounds, &slid));
         let striking = Striking::new(from, h, (&ends, &pressing, &sizes), laws, (pushed, halves));
-        let answer = striking.answer(closed)?;
+        let answer = striking.answer(closed, pushed | rested)?;
         // what has stuck in the whole step is where it was
         let back = those(MOST_CONTACTS, |row| has(stuck, row) && number(&answer.directions, row) == 0.0);
         let off = core::array::from_fn(|row| {

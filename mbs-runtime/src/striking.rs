@@ -132,8 +132,9 @@ impl<'a, T: Real> Striking<'a, T> {
     }
 
     /// The impulses at the stops that are closed, or that impulses close, one impact after the other; nothing where there
-    /// are none.
-    pub fn answer(&self, mut closed: u32) -> Option<Answer<T>> {
+    /// are none. Those that were `rested` on at the start of the step have a part in the first one, whatever their rates are
+    /// without the second half of the rest.
+    pub fn answer(&self, mut closed: u32, rested: u32) -> Option<Answer<T>> {
         let Self { contacts, ends, shift, .. } = self;
         // written so that a NaN is no growth
         let has_growth = contacts.growth() < growth_limit();
@@ -150,7 +151,8 @@ impl<'a, T: Real> Striking<'a, T> {
             let still = self.still(&impulses);
             let is_last = turn + 1 == IN_SEQUENCE;
             let closing = those(MOST_CONTACTS, |stop| {
-                has(closed, stop) && (is_last || number(&rate, stop) <= number(&still, stop))
+                let takes_part = is_last || turn == 0 && has(rested, stop);
+                has(closed, stop) && (takes_part || number(&rate, stop) <= number(&still, stop))
             });
             let is_hit = |stop: usize| has(closing, stop) && number(&rate, stop) < -number(&still, stop);
             if turn == IN_SEQUENCE || !(0..MOST_CONTACTS).any(is_hit) {
@@ -159,12 +161,9 @@ impl<'a, T: Real> Striking<'a, T> {
                 let directions = self.moving(&directions, &rate, &impulses);
                 return Some(Answer { held, impulses, moved, gap, directions, is_impact });
             }
-            let taken = taken(contacts, (closed, self.locked), self.pressing)
-                .or_else(|| taken(contacts, (closed, self.locked), &self.change))
-                .or_else(|| (self.locked != 0).then_some([T::ZERO; MOST_CONTACTS]))?;
+            let taken = self.taken(closed)?;
             let approach = if turn == 0 { self.approach() } else { rate };
             let thrown = self.rebounds(&approach);
-            // where more stops press than hold, rounding is all that the force at one takes back
             let rests = |stop: usize| number(&thrown, stop) <= number(&taken, stop) + number(&still, stop);
             held = those(MOST_CONTACTS, |stop| has(closed, stop) && (is_last || rests(stop)));
             let is_fast =
@@ -248,6 +247,22 @@ impl<'a, T: Real> Striking<'a, T> {
             true => of(&self.ends.rate[1], row) + of(&second, row),
             false => of(&self.ends.rate[1], row) - of(&self.rest, row) * of(&self.change, row),
         })
+    }
+
+    /// The rates that a step takes back from gaps: by the forces at the stops, of which one may bear what several could, and
+    /// by what presses without any.
+    fn taken(&self, closed: u32) -> Option<Each<T>> {
+        let set = (closed, self.locked);
+        let by_forces = taken(self.contacts, set, self.pressing)
+            .or_else(|| taken(self.contacts, set, &self.change))
+            .or_else(|| (self.locked != 0).then_some([T::ZERO; MOST_CONTACTS]))?;
+        Some(zip(
+            &by_forces,
+            self.pressing,
+            |by_forces, pressing| {
+                if -pressing > by_forces { -pressing } else { by_forces }
+            },
+        ))
     }
 
     /// The rates −e ġ with which gaps open again.

@@ -207,7 +207,7 @@ fn a_rest_is_of_second_order() -> Result<(), Error> {
     Ok(())
 }
 
-/// The end of a run of a text with steps of 1 ms: q and v, and the memories.
+/// The end of a run of a text with steps of 1 ms: q and v, and the impulses of its stops.
 fn at_end(text: &str, end: f64) -> Result<[Vec<f64>; 3], Error> {
     let live = Text::declaration("steps.mbs", text).compile().expect("a mechanism");
     let mut run = Run::builder(&live, 1e-3).build()?;
@@ -217,7 +217,8 @@ fn at_end(text: &str, end: f64) -> Result<[Vec<f64>; 3], Error> {
     let mut inputs = vec![0.0; info.inputs.len()];
     run.state(&mut q, &mut v);
     run.inputs(&mut inputs);
-    Ok([q, v, inputs])
+    let impulses = info.stops.iter().map(|stop| inputs[stop.memory + 1]).collect();
+    Ok([q, v, impulses])
 }
 
 /// Regression: a rest that curvature alone presses, or a platform that speeds up by more than g, dissolved into impacts of
@@ -229,25 +230,25 @@ fn a_rest_on_what_bends_or_speeds_up_stays_one() -> Result<(), Error> {
             "Rim {{ dof = 2; body puck (x, y) {{ mass = 2 [kg]; }} stop rim: x^2 + y^2 <= 1 [m^2] {{ restitution = {e}; }}
                 start {{ x = 0; y = -1 [m]; der(x) = 3 [m/s]; der(y) = 0; }} }}"
         );
-        let [q, v, inputs] = at_end(&rim, 0.5)?;
-        assert!(
-            (q[0].hypot(q[1]) - 1.0).abs() < 1e-12 && (v[0].hypot(v[1]) - 3.0).abs() < 1e-10,
-            "{q:?} {v:?}"
-        );
-        assert_eq!(inputs, [1.0, 0.0], "{e}");
+        let [q, v, impulses] = at_end(&rim, 0.5)?;
+        // the gap is closed to second order of what is left of it, and the velocity is turned with an error of third order
+        let (radius, speed) = (q[0].hypot(q[1]), v[0].hypot(v[1]));
+        assert!((radius - 1.0).abs() < 1e-9 && (speed - 3.0).abs() < 1e-7, "{radius} {speed}");
+        assert_eq!(impulses, [0.0], "{e}");
         let lift = format!(
-            "Lift {{ dof = 1; gravity = (0, -10) [m/s^2]; body case (y) {{ mass = 5 [kg]; }} body table (u) {{ mass = 1 [kg]; }}
-                drive up: u = 15 [m/s^2]*t^2/2; stop floor: y >= u {{ restitution = {e}; }} start {{ guess u = 0; y = 0; }} }}"
+            "Lift {{ dof = 1; gravity = (0, -10) [m/s^2]; body case (y) {{ mass = 5 [kg]; }}
+                body table (y = u) {{ mass = 1 [kg]; }} drive up: u = 15 [m/s^2]*t^2/2;
+                stop floor: y >= u {{ restitution = {e}; }} start {{ guess u = 0; y = 0; }} }}"
         );
-        let [q, v, inputs] = at_end(&lift, 0.3)?;
+        let [q, v, impulses] = at_end(&lift, 0.3)?;
         assert!((q[0] - 0.675).abs() < 1e-12 && (v[0] - 4.5).abs() < 1e-12, "{q:?} {v:?}");
-        assert_eq!(inputs, [1.0, 0.0], "{e}");
+        assert_eq!(impulses, [0.0], "{e}");
     }
     Ok(())
 }
 
-/// Regression: a block on three rough feet walked, and a block on another one crept below the largest force of its friction. A rate
-/// that is rounding was taken for one that opens, and the foot had no part in the answer.
+/// Regression: a block on three rough feet or four walked, and a block on another one crept below the largest force of its
+/// friction. A foot had no part in the answer whose rate was rounding, or opened without the second half of the rest.
 #[test]
 fn feet_in_line_do_not_walk() -> Result<(), Error> {
     let foot = |name: &str, x: f64| {
@@ -256,17 +257,34 @@ fn feet_in_line_do_not_walk() -> Result<(), Error> {
             stop of_{name}: b.{name}.y >= 0 [m] {{ restitution = 0.3; friction = 0.5; along = b.{name}.x; }}"
         )
     };
-    let feet = [("l", -0.1), ("m", 0.03), ("r", 0.1)].map(|(name, x)| foot(name, x)).concat();
+    let feet = [("l", -0.1), ("k", -0.02), ("m", 0.03), ("r", 0.1)].map(|(name, x)| foot(name, x)).concat();
     for push in [0.0, 7.0, 8.0, 9.0, 9.9] {
         let text = format!(
-            "Feet {{ dof = 3; gravity = (0, -10) [m/s^2]; body b (x, y, phi) {{ mass = 2 [kg]; inertia = 0.01 [kg*m^2]; }} {feet}
-                force push on b = ({push} [N], 0); start {{ y = 0.05 [m]; }} }}"
+            "Feet {{ dof = 3; gravity = (0, -10) [m/s^2]; body b (x, y, phi) {{ mass = 2 [kg]; inertia = 0.01 [kg*m^2]; }}
+                {feet} force push on b = ({push} [N], 0); start {{ y = 0.05 [m]; }} }}"
         );
-        let [q, v, inputs] = at_end(&text, 1.0)?;
+        let [q, v, impulses] = at_end(&text, 1.0)?;
         assert!(q[0].abs() < 1e-14 && v[0].abs() < 1e-14, "{push}: {q:?}");
-        let impulses = [1, 3, 5].map(|at| inputs[at]);
-        assert_eq!(impulses, [0.0; 3], "{push}");
+        assert_eq!(impulses, [0.0; 4], "{push}");
     }
+    // pushed with 2.9 N of 3 N
+    let upper = |name: &str, x: f64| {
+        format!(
+            "point {name} on a = ({x} [m], -0.05 [m]);
+            let up_{name} = (a.{name}.y - y)*cos(phi) - (a.{name}.x - x)*sin(phi);
+            let way_{name} = (a.{name}.x - x)*cos(phi) + (a.{name}.y - y)*sin(phi);
+            stop of_{name}: up_{name} >= 0.05 [m] {{ restitution = 0.3; friction = 0.3; along = way_{name}; }}"
+        )
+    };
+    let feet = [foot("l", -0.1), foot("r", 0.1), upper("i", -0.08), upper("j", 0.08)].concat();
+    let text = format!(
+        "Stack {{ dof = 6; gravity = (0, -10) [m/s^2]; body b (x, y, phi) {{ mass = 2 [kg]; inertia = 0.01 [kg*m^2]; }}
+            body a (u, w, psi) {{ mass = 1 [kg]; inertia = 0.005 [kg*m^2]; }} {feet}
+            force push on a = (2.9 [N], 0); start {{ y = 0.05 [m]; w = 0.15 [m]; u = 0; }} }}"
+    );
+    let [q, _, impulses] = at_end(&text, 1.0)?;
+    assert!(q[0].abs() < 1e-14 && q[3].abs() < 1e-14, "{q:?}");
+    assert_eq!(impulses, [0.0; 4]);
     Ok(())
 }
 

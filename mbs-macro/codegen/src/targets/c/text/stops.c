@@ -67,6 +67,7 @@ RUBS         closed[stop] = it.closed[stop];
         const real part = gap > 0 && end < gap ? gap / (gap - end) : 0;
         it.rest[stop] = part < 1 ? 1 - part : 0;
         it.shift[stop] = pushed[stop] ? 0 : it.rest[stop] * run->step;
+        it.rested[stop] = pushed[stop] || NAME_elements(&run->inputs)[NAME_memories[stop]] > (real)0.5;
     }
 RUBS     NAME_find_bounds(m, &it.bounds);
 RUBS     NAME_find_held(run, held);

@@ -77,7 +77,7 @@ struct NAME_answer {
     real before[CAPS_ROWS], now[CAPS_ROWS], gap_now[CAPS_ROWS];
     /* the part of the step behind the closing of a gap, and what an impulse moves positions by */
     real rest[CAPS_ROWS], shift[CAPS_ROWS];
-    int closed[CAPS_ROWS], held[CAPS_ROWS], locked[CAPS_ROWS], is_impact;
+    int closed[CAPS_ROWS], rested[CAPS_ROWS], held[CAPS_ROWS], locked[CAPS_ROWS], is_impact;
     /* how far gaps may be behind their stops where modes lead them, and up to which they are closed */
     double allowed[CAPS_ROWS], nearest[CAPS_ROWS];
     /* the rates that are rounding of velocities, and those below which gaps do not move */
@@ -167,11 +167,14 @@ RUBS     struct NAME_struck struck;
         }
     }
     NAME_rebound(run, approach, thrown);
+    /* one stop may bear what several could: by what presses without any, too */
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        taken[stop] = -it->pressing[stop] > taken[stop] ? -it->pressing[stop] : taken[stop];
+    }
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         const real later = turn == 0 ? it->rest[stop] * change[stop] : 0;
         const double least = (double)taken[stop] + it->still[stop];
-        /* what is closed in the last of all impacts is rested on; where more stops press than hold, rounding is all that the force
-           at one takes back */
+        /* what is closed in the last of all impacts is rested on */
         it->held[stop] = it->closed[stop] && (turn == 15 || (double)thrown[stop] <= least);
         /* a force that presses for a step is no impact */
         it->is_impact = it->is_impact || (hit[stop] && -(double)approach[stop] > least);
@@ -237,7 +240,9 @@ static int NAME_find_impulses(const struct NAME_run *run, const real *contacts, 
             }
             it->still[stop] = it->slowest[stop] + NAME_rounding(1e-12) * size;
             it->closed[stop] = it->closed[stop] || (double)it->gaps[stop] <= it->nearest[stop];
-            closing[stop] = it->closed[stop] && (turn == 15 || (double)rates[stop] <= it->still[stop]);
+            /* what was rested on has a part in the first one, whatever its rate is without the second half of the rest */
+            const int takes_part = turn == 15 || (turn == 0 && it->rested[stop]);
+            closing[stop] = it->closed[stop] && (takes_part || (double)rates[stop] <= it->still[stop]);
             hit[stop] = closing[stop] && (double)rates[stop] < -it->still[stop];
             is_hit = is_hit || hit[stop];
         }

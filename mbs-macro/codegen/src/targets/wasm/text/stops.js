@@ -266,7 +266,7 @@ class AtStops extends Modes {
   }
 
   // The impulses at the stops that are closed at the end of a step, or that impulses close, one impact after the other.
-  answer(closed, { before, now, gap, rest, shift, pushed, halves, slid, pressing, speed }) {
+  answer(closed, { before, now, gap, rest, shift, pushed, halves, slid, pressing, speed, rested }) {
     const none = this.each(() => 0), bounds = this.bounds(), directions = this.each(() => 0);
     const change = now.map((rate, stop) => rate - before[stop]), locked = this.locked();
     const size = largest(this.q.subarray(0, this.tables.lines)), slopes = this.each((row) => this.slope(row));
@@ -279,21 +279,23 @@ class AtStops extends Modes {
       const still = rates.map((_, stop) => slowest[stop] + 1e-12 * impulses.reduce(
         (size, impulse, by) => size + Math.abs(this.mobility(stop, by) * impulse),
         Math.abs(before[stop]) + Math.abs(now[stop])));
-      const closing = closed.map((it, stop) => it && (turn === 15 || rates[stop] <= still[stop]));
+      // what was rested on has a part in the first one, whatever its rate is without the second half of the rest
+      const takesPart = (stop) => turn === 15 || (turn === 0 && (pushed[stop] || rested[stop]));
+      const closing = closed.map((it, stop) => it && (takesPart(stop) || rates[stop] <= still[stop]));
       const hit = closing.map((it, stop) => it && rates[stop] < -still[stop]);
       if (turn === 16 || !hit.includes(true)) {
         held = held.map((it, stop) => closing[stop] && it && impulses[stop] > 0);
         return { impulses, moved, gaps, isImpact, held, directions: this.moving(directions, rates, impulses) };
       }
-      const taken = this.takenIfAny(closed, [pressing, change], locked);
+      // one stop may bear what several could: by what presses without any, too
+      const taken = this.takenIfAny(closed, [pressing, change], locked).map((it, stop) => (-pressing[stop] > it ? -pressing[stop] : it));
       // of a rest what its second half leaves
       const second = this.changed(this.each(() => 0), halves);
       const first = now.map((rate, stop) => rate + (pushed[stop] ? second[stop] : -(rest[stop] * change[stop])));
       const approach = turn === 0 ? first : rates;
       const thrown = this.rebounds(approach);
       const least = taken.map((taken, stop) => taken + still[stop]);
-      // what is closed in the last of all impacts is rested on; where more stops press than hold, rounding is all that the force at
-      // one takes back
+      // what is closed in the last of all impacts is rested on
       held = closed.map((it, stop) => it && (turn === 15 || thrown[stop] <= least[stop]));
       // a force that presses for a step is no impact
       isImpact = isImpact || hit.some((it, stop) => it && -approach[stop] > least[stop]);
@@ -350,6 +352,7 @@ class AtStops extends Modes {
       pushed,
       halves,
       pressing,
+      rested: this.held(),
       speed: Math.max(largest(before.v), largest(this.v)),
       slid: this.each((row) => (this.stopOf(row) < 0 ? 0 : this.direction(row))),
     });
