@@ -241,7 +241,7 @@ impl<'a, T: Real> Contacts<'a, T> {
     }
 
     /// True if an impulse at a stop does what impulses at the active ones can do.
-    fn depends(&self, stop: usize, active: u32) -> bool {
+    pub fn depends(&self, stop: usize, active: u32) -> bool {
         let shares = self.shares(active, stop);
         let own = self.slid_mobility(stop, stop).to_f64();
         let of_others = |by: usize| self.slid_mobility(stop, by).to_f64() * number(&shares, by);

@@ -12,7 +12,7 @@ use crate::{Error, Real, vectors};
 /// A start is behind a stop by more than this share of the size of the coordinates.
 const BEHIND: f64 = 1e-9;
 /// The least size in m or rad: at the origin nothing else tells what is rounding.
-const LEAST_SIZE: f64 = 1e-3;
+pub(crate) const LEAST_SIZE: f64 = 1e-3;
 /// Friction does not slide at a start below this share of the largest speed that the kinetic energy lets it have.
 const STILL: f64 = 1e-9;
 

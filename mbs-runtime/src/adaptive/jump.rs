@@ -10,10 +10,13 @@ use crate::modes::{self, Judging, are_met};
 use crate::pressing::held;
 use crate::rubbing::{self, Bounds, Hit};
 use crate::sticking::{Held, Undecided, all_frictions, decide, direction, frictions, set, unanswered};
+use crate::touching::LEAST_SIZE;
 use crate::{Error, Real, vectors};
 
 /// A gap below this share of the size of the coordinates is closed,
 pub(super) const CLOSED: f64 = 1e-12;
+/// and one within so many times what those are off that are rested on,
+const OFF: f64 = 4.0;
 /// and one that closes within this share of the longest step.
 const SOON: f64 = 1e-10;
 /// A rate of a gap is 0 below this share of the largest one that the kinetic energy lets it have,
@@ -24,6 +27,8 @@ const JUMPS: f64 = 1e3;
 const RISE: f64 = 1e-18;
 /// So many impacts follow each other at once, where one lets gaps close that had begun to open.
 const IN_SEQUENCE: usize = 64;
+/// The gap of a stop that others hold closed moves by no more than this share of what it would without any.
+const LEANS: f64 = 1e-6;
 /// A gap that opens by no more than this share of the size of the coordinates has not been left: its flight is lost in rounding.
 const LOW: f64 = 1e-12;
 
@@ -106,7 +111,7 @@ impl<D: Dynamics> Jump<'_, D> {
     /// The size of the coordinates of bodies here.
     pub fn size(&self) -> f64 {
         let info = self.dynamics.equations().info();
-        vectors::largest(info.of_bodies(self.q.as_ref())).1.to_f64()
+        LEAST_SIZE + vectors::largest(info.of_bodies(self.q.as_ref())).1.to_f64()
     }
 
     /// Σ |∂g/∂q| of every gap.
@@ -218,6 +223,10 @@ impl<D: Dynamics> Jump<'_, D> {
         let (count, gaps) = (self.count(), self.gaps());
         stopping.size = stopping.size.max(self.size());
         let (size, slopes) = (CLOSED * stopping.size, self.slopes());
+        // within a step positions are off by what the gaps of those tell that are rested on
+        let off = |stop: usize| number(&gaps.gap, stop).abs() / number(&slopes, stop);
+        let off = (0..count).filter(|stop| has(held, *stop)).map(off).filter(|off| off.is_finite());
+        let size = off.fold(size, |size, off| size.max(OFF * off));
         let is_closed = |stop: usize| {
             let soon = SOON * longest_step * (-number(&gaps.rate, stop)).max(0.0);
             number(&gaps.gap, stop) <= size * number(&slopes, stop) + soon
@@ -274,14 +283,38 @@ impl<D: Dynamics> Jump<'_, D> {
         let [not_moving, leaving] = self.slide(halted, &rates, &still);
         self.clear(resting | placed(info, locked), &gaps.gap, true);
         let breaking = found & held & !stuck | leaving;
-        let Held { held, .. } = self.decide(Undecided { resting, still: not_moving, breaking })?;
+        let decided = self.decide(Undecided { resting, still: not_moving, breaking })?;
+        let pushing = decided.held;
+        let held = self.completed(resting, decided);
         // what friction does not hold keeps its velocity: at a dead centre it would be that of the whole mechanism
         let rates = self.gaps().rate;
         self.clear(resting | locked | held & not_moving, &rates, false);
-        stopping.kept = resting & stuck & !held;
+        stopping.kept = resting & stuck & !held | held & !pushing;
         let held = held | resting & stuck;
         let closed = closed | not_moving;
         Ok(Outcome { held, closed, impulses, flight })
+    }
+
+    /// With the stops that bear nothing at this moment, but could: a beam on three supports whose load is over the middle one
+    /// may come to lean on either of the others. Without them it would begin to tip before they are seen to close.
+    fn completed(&mut self, resting: u32, Held { held, forces }: Held<D::Real>) -> u32 {
+        let open = resting & !held;
+        if open == 0 {
+            return held;
+        }
+        let (free, slides) =
+            (self.gaps().acceleration, rubbing::sliding(self.dynamics.equations(), self.inputs));
+        let completed = self.contacts(|contacts| {
+            let (contacts, changes) = (contacts.sliding(slides), contacts.rates(&forces));
+            let is_still = |stop: usize| {
+                let (free, change) = (number(&free, stop), number(&changes, stop));
+                free < 0.0 && (free + change).abs() <= LEANS * -free
+            };
+            (0..MOST_CONTACTS)
+                .filter(|stop| has(open, *stop) && is_still(*stop))
+                .fold(held, |held, stop| if contacts.depends(stop, held) { held } else { held | bit(stop) })
+        });
+        completed.unwrap_or(held)
     }
 
     /// Sets the directions of the frictions that move. Gives those that do not, with those that have come to a halt, and of
