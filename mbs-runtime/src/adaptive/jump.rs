@@ -5,11 +5,11 @@ use super::gaps::Stopping;
 use super::margins::margins;
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, those};
 use crate::equations::At;
-use crate::locks::{all_stops, locked, placed};
+use crate::locks::{all_stops, locked};
 use crate::modes::{self, Judging, are_met};
 use crate::pressing::held;
 use crate::rubbing::{self, Bounds, Hit};
-use crate::sticking::{Held, Undecided, all_frictions, decide, direction, frictions, set, unanswered};
+use crate::sticking::{direction, frictions, unanswered};
 use crate::touching::LEAST_SIZE;
 use crate::{Error, Real, vectors};
 
@@ -22,13 +22,11 @@ const SOON: f64 = 1e-10;
 /// A rate of a gap is 0 below this share of the largest one that the kinetic energy lets it have,
 const STILL: f64 = 1e-9;
 /// where a stop that is rested on has not jumped below so many times as much,
-const JUMPS: f64 = 1e3;
+pub(super) const JUMPS: f64 = 1e3;
 /// and one with which the gap opens by no more than this share of the size of the coordinates.
 const RISE: f64 = 1e-18;
 /// So many impacts follow each other at once, where one lets gaps close that had begun to open.
 const IN_SEQUENCE: usize = 64;
-/// The gap of a stop that others hold closed moves by no more than this share of what it would without any.
-const LEANS: f64 = 1e-6;
 /// A gap that opens by no more than this share of the size of the coordinates has not been left: its flight is lost in rounding.
 const LOW: f64 = 1e-12;
 
@@ -46,7 +44,7 @@ pub(super) struct Jump<'a, D: Dynamics> {
 }
 
 impl<D: Dynamics> Jump<'_, D> {
-    fn at(&self) -> At<'_, D::Real> {
+    pub(super) fn at(&self) -> At<'_, D::Real> {
         At { t: self.t, q: self.q.as_ref(), v: self.v.as_ref() }
     }
 
@@ -104,7 +102,7 @@ impl<D: Dynamics> Jump<'_, D> {
     }
 
     /// Does something with the responses here.
-    fn contacts<R>(&self, what: impl FnOnce(Contacts<'_, D::Real>) -> R) -> Option<R> {
+    pub(super) fn contacts<R>(&self, what: impl FnOnce(Contacts<'_, D::Real>) -> R) -> Option<R> {
         Contacts::at(self.dynamics.equations(), (self.t, self.q.as_ref()), what)
     }
 
@@ -183,6 +181,18 @@ pub(super) struct Outcome<T> {
     pub flight: f64,
 }
 
+/// What a jump has found before it decides what rests: the stops that were reached, those that were held before, and those that
+/// are closed; the gaps before impacts, Σ |∂g/∂q|, and the rates below which they are still.
+pub(super) struct Before<T> {
+    pub reached: u32,
+    pub held: u32,
+    pub closed: u32,
+    pub gaps: Gaps<T>,
+    pub slopes: Each<f64>,
+    pub still: Each<f64>,
+    pub is_impact: bool,
+}
+
 impl<D: Dynamics> Jump<'_, D> {
     /// The gaps, with accelerations that the stops of a set have a part in which are closed and still.
     fn pressed(&mut self, closed: u32, size: f64) -> Result<Gaps<D::Real>, Error> {
@@ -205,7 +215,7 @@ impl<D: Dynamics> Jump<'_, D> {
     }
 
     /// Nothing answers a set of stops.
-    fn unanswered(&self, set: u32) -> Error {
+    pub(super) fn unanswered(&self, set: u32) -> Error {
         unanswered(self.dynamics.equations().info(), self.t.to_f64(), set)
     }
 
@@ -220,127 +230,66 @@ impl<D: Dynamics> Jump<'_, D> {
         longest_step: f64,
         stopping: &mut Stopping,
     ) -> Result<Outcome<D::Real>, Error> {
-        let (count, gaps) = (self.count(), self.gaps());
+        let gaps = self.gaps();
         stopping.size = stopping.size.max(self.size());
-        let (size, slopes) = (CLOSED * stopping.size, self.slopes());
-        // within a step positions are off by what the gaps of those tell that are rested on
-        let off = |stop: usize| number(&gaps.gap, stop).abs() / number(&slopes, stop);
-        let off = (0..count).filter(|stop| has(held, *stop)).map(off).filter(|off| off.is_finite());
-        let size = off.fold(size, |size, off| size.max(OFF * off));
-        let is_closed = |stop: usize| {
-            let soon = SOON * longest_step * (-number(&gaps.rate, stop)).max(0.0);
-            number(&gaps.gap, stop) <= size * number(&slopes, stop) + soon
-        };
-        let friction = all_frictions(self.dynamics.equations().info());
-        let info = self.dynamics.equations().info();
-        let locked = locked(info, self.inputs);
+        let (slopes, info) = (self.slopes(), self.dynamics.equations().info());
         let allowed = |row: usize| stopping.closed * stopping.size * number(&slopes, row);
+        let locked = locked(info, self.inputs);
         are_met(info, self.t.to_f64(), locked, |row| number(&gaps.gap, row), allowed)?;
-        let closed = (held | reached) & all_stops(info) | those(count, is_closed);
+        let touching = self.touching([&gaps.gap, &gaps.rate], &slopes, (held, longest_step, stopping.size));
+        let closed = (held | reached) & all_stops(info) | touching;
         let still = self.still(&gaps.acceleration, stopping.size);
-        let (mut impulses, mut flight) = ([D::Real::default(); MOST_CONTACTS], f64::INFINITY);
-        let mut is_impact = false;
+        let (impulses, flight) = self.impacts(closed, &still, stopping)?;
+        let before = Before { reached, held, closed, gaps, slopes, still, is_impact: flight.is_some() };
+        let [held, closed] = self.rest(&before, stopping)?;
+        Ok(Outcome { held, closed, impulses, flight: flight.unwrap_or(f64::INFINITY) })
+    }
+
+    /// The stops whose gaps are closed, up to rounding.
+    fn touching(
+        &self,
+        [gap, rate]: [&Each<D::Real>; 2],
+        slopes: &Each<f64>,
+        (held, longest_step, size): (u32, f64, f64),
+    ) -> u32 {
+        // within a step positions are off by what the gaps of those tell that are rested on
+        let off = |stop: usize| number(gap, stop).abs() / number(slopes, stop);
+        let off = (0..self.count()).filter(|stop| has(held, *stop)).map(off).filter(|off| off.is_finite());
+        let size = off.fold(CLOSED * size, |size, off| size.max(OFF * off));
+        those(self.count(), |stop| {
+            let soon = SOON * longest_step * (-number(rate, stop)).max(0.0);
+            number(gap, stop) <= size * number(slopes, stop) + soon
+        })
+    }
+
+    /// Changes velocities by impacts that follow each other at once. Their impulses, and where there were any the time until
+    /// the next one.
+    fn impacts(
+        &mut self,
+        closed: u32,
+        still: &Each<f64>,
+        stopping: &mut Stopping,
+    ) -> Result<(Each<D::Real>, Option<f64>), Error> {
+        let locked = locked(self.dynamics.equations().info(), self.inputs);
+        let (mut impulses, mut flight) = ([D::Real::default(); MOST_CONTACTS], None);
         for turn in 1..=IN_SEQUENCE {
             let rate = self.gaps().rate;
-            let moves = |stop: usize| !is_still(&rate, &still, stop);
-            let is_last = turn == IN_SEQUENCE;
+            let moves = |stop: usize| !is_still(&rate, still, stop);
             let opens = |stop: usize| number(&rate, stop) > 0.0 && moves(stop);
-            let closing = those(count, |stop| has(closed, stop) && (is_last || !opens(stop)));
+            // an accumulation within one moment ends as others do
+            let is_last = turn == IN_SEQUENCE;
+            let closing = those(self.count(), |stop| has(closed, stop) && (is_last || !opens(stop)));
             if those(MOST_CONTACTS, |row| has(closing | locked, row) && moves(row)) == 0 {
                 break;
             }
-            // an accumulation within one moment ends as others do
             let settled = stopping.stuck | if is_last { closing } else { 0 };
             let (more, next) = self.impact(closing, &rate, (settled, stopping))?;
             for (impulse, more) in impulses.iter_mut().zip(more) {
                 *impulse = *impulse + more;
             }
-            (is_impact, flight) = (true, next);
+            flight = Some(next);
         }
-        // nothing answers stops that contradict each other
-        let rate = self.gaps().rate;
-        let is_passed =
-            |stop: &usize| has(closed, *stop) && number(&rate, *stop) < -JUMPS * number(&still, *stop);
-        if let Some(stop) = (0..count).find(is_passed) {
-            return Err(self.unanswered(bit(stop)));
-        }
-        // a stop that pulls is left, and so is one from which the impact throws back
-        let pulling = if is_impact { 0 } else { reached & held & !stopping.stuck };
-        let rates = self.gaps().rate;
-        let stuck = core::mem::take(&mut stopping.stuck);
-        let rests = |stop: usize| is_still(&rates, &still, stop) || has(stuck, stop);
-        let resting = those(count, |stop| has(closed & !pulling, stop) && rests(stop));
-        let left = |row: usize| {
-            let slowest = number(&still, row).max(self.slowest * number(&slopes, row));
-            JUMPS * slowest + modes::left_of::<D::Real>(number(&gaps.rate, row).abs())
-        };
-        modes::do_not_contradict(info, self.t.to_f64(), locked, |row| number(&rates, row), left)?;
-        let found = if is_impact { 0 } else { reached };
-        let is_halted = |row: usize| number(&rates, row).abs() <= JUMPS * number(&still, row);
-        let halted = those(MOST_CONTACTS, |row| {
-            has(friction & !held, row) && (has(found, row) && is_halted(row) || has(stuck, row))
-        });
-        let [not_moving, leaving] = self.slide(halted, &rates, &still);
-        self.clear(resting | placed(info, locked), &gaps.gap, true);
-        let breaking = found & held & !stuck | leaving;
-        let decided = self.decide(Undecided { resting, still: not_moving, breaking })?;
-        let pushing = decided.held;
-        let held = self.completed(resting, decided);
-        // what friction does not hold keeps its velocity: at a dead centre it would be that of the whole mechanism
-        let rates = self.gaps().rate;
-        self.clear(resting | locked | held & not_moving, &rates, false);
-        stopping.kept = resting & stuck & !held | held & !pushing;
-        let held = held | resting & stuck;
-        let closed = closed | not_moving;
-        Ok(Outcome { held, closed, impulses, flight })
-    }
-
-    /// With the stops that bear nothing at this moment, but could: a beam on three supports whose load is over the middle one
-    /// may come to lean on either of the others. Without them it would begin to tip before they are seen to close.
-    fn completed(&mut self, resting: u32, Held { held, forces }: Held<D::Real>) -> u32 {
-        let open = resting & !held;
-        if open == 0 {
-            return held;
-        }
-        let (free, slides) =
-            (self.gaps().acceleration, rubbing::sliding(self.dynamics.equations(), self.inputs));
-        let completed = self.contacts(|contacts| {
-            let (contacts, changes) = (contacts.sliding(slides), contacts.rates(&forces));
-            let is_still = |stop: usize| {
-                let (free, change) = (number(&free, stop), number(&changes, stop));
-                free < 0.0 && (free + change).abs() <= LEANS * -free
-            };
-            (0..MOST_CONTACTS)
-                .filter(|stop| has(open, *stop) && is_still(*stop))
-                .fold(held, |held, stop| if contacts.depends(stop, held) { held } else { held | bit(stop) })
-        });
-        completed.unwrap_or(held)
-    }
-
-    /// Sets the directions of the frictions that move. Gives those that do not, with those that have come to a halt, and of
-    /// them those that have just broken loose, as far as their directions tell.
-    fn slide(&mut self, halted: u32, rates: &Each<D::Real>, still: &Each<f64>) -> [u32; 2] {
-        let info = self.dynamics.equations().info();
-        let (mut not_moving, mut leaving) = (0, 0);
-        for (row, _) in frictions(info) {
-            if has(halted, row) {
-                not_moving |= bit(row);
-            } else if is_still(rates, still, row) {
-                not_moving |= bit(row);
-                leaving |= if direction(info, self.inputs, row) == 0.0 { 0 } else { bit(row) };
-            } else {
-                let direction = if number(rates, row) > 0.0 { 1.0 } else { -1.0 };
-                set(info, self.inputs, row, (direction, D::Real::default()));
-            }
-        }
-        [not_moving, leaving]
-    }
-
-    fn decide(&mut self, undecided: Undecided) -> Result<Held<D::Real>, Error> {
-        let Self { dynamics, inputs, t, q, v, a, .. } = self;
-        let mut lambda = dynamics.no_feedback();
-        let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
-        decide(dynamics.equations(), at, inputs, undecided, [a.as_mut(), lambda.as_mut()])
+        Ok((impulses, flight))
     }
 
     /// Changes velocities by the impulses of an impact at stops that close.
@@ -408,7 +357,7 @@ impl<D: Dynamics> Jump<'_, D> {
 }
 
 /// True if a gap does not move.
-fn is_still<T: Real>(rates: &Each<T>, still: &Each<f64>, stop: usize) -> bool {
+pub(super) fn is_still<T: Real>(rates: &Each<T>, still: &Each<f64>, stop: usize) -> bool {
     number(rates, stop).abs() <= number(still, stop)
 }
 

@@ -29,6 +29,7 @@ mod jump;
 mod margins;
 mod noise;
 mod passing;
+mod resting;
 mod sampled;
 mod scheme;
 mod stops;
