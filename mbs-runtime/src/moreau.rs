@@ -170,8 +170,8 @@ fn strike_stops<T: Real>(
     let gap_before = Gaps::of(equations, before, changes.still).gap;
     equations.free_reactions(At { t, q, v }, inputs, changes.q, changes.rows);
     let pressing = Gaps::of(equations, At { t, q, v }, changes.q).acceleration.map(|a| h * a);
-    let size = vectors::largest(equations.info().of_bodies(q)).1.to_f64();
-    let speed = [before.v, &*v].map(|v| vectors::largest(v).1.to_f64()).into_iter().fold(0.0, f64::max);
+    let largest = |of: &[T]| vectors::largest(equations.info().of_bodies(of)).1.to_f64();
+    let (size, speed) = (largest(q), largest(before.v).max(largest(v)));
     // velocities as joints at the end have them: those of the start change by forces alone, and stops that depend on each
     // other do not contradict each other by what joints are off
     let mut rate = |velocities: &[T]| {

@@ -13,7 +13,7 @@ static int NAME_strike_stops(
     const double size = (double)NAME_largest(NAME_elements(&at->q), CAPS_LINES);
     const struct NAME_constraints no_feedback = {0};
     struct NAME_reactions free = {0};
-    double speed = (double)NAME_largest(NAME_elements(&before->v), CAPS_COORDINATES);
+    double speed = (double)NAME_largest(NAME_elements(&before->v), CAPS_LINES);
     int set[CAPS_ROWS], is_closed = 0;
 RUBS     int closed[CAPS_ROWS] = {0}, held[CAPS_ROWS];
     it.pushed = pushed;
@@ -35,8 +35,8 @@ RUBS         closed[stop] = it.closed[stop];
     for (int row = 0; row < CAPS_ROWS; row++) {
         it.pressing[row] = run->step * rated[3 * row + 2];
     }
-    if ((double)NAME_largest(NAME_elements(&at->v), CAPS_COORDINATES) > speed) {
-        speed = (double)NAME_largest(NAME_elements(&at->v), CAPS_COORDINATES);
+    if ((double)NAME_largest(NAME_elements(&at->v), CAPS_LINES) > speed) {
+        speed = (double)NAME_largest(NAME_elements(&at->v), CAPS_LINES);
     }
     /* velocities as joints at the end have them: those of the start change by forces alone, and stops that depend on each
        other do not contradict each other by what joints are off */

@@ -353,7 +353,7 @@ class AtStops extends Modes {
       halves,
       pressing,
       rested: this.held(),
-      speed: Math.max(largest(before.v), largest(this.v)),
+      speed: Math.max(...[before.v, this.v].map((v) => largest(v.subarray(0, this.tables.lines)))),
       slid: this.each((row) => (this.stopOf(row) < 0 ? 0 : this.direction(row))),
     });
     // what has stuck in the whole step is where it was
