@@ -2,8 +2,8 @@
 //!
 //! In a step friction that slides acts with the force −L d in its direction d. Where its speed has changed its sign at the
 //! end of a step, after the part s, the rest of the step is made good by an impulse Λ: the one that halts it, if with it the
-//! force in the rest is at most L₀; else the one of a force L that brakes the way back. A speed that is 0 at the end was
-//! halted by others, such as stops: s is 0.
+//! force in the rest is at most L₀; else the one of a force L that brakes the way back. Where the speed is 0 at the
+//! end, a stop or another friction has halted it, and s is 0.
 //!
 //! ```text
 //! W Λ + ṡ = 0,  |Λ| ≤ (1 − s) h (L + L₀),   or   |Λ| = 2 (1 − s) h L

@@ -14,8 +14,9 @@
 //! its gap is made 0 by the shortest way by masses.
 //!
 //! Where a stop is rested on at the start of a step, half of the impulse of its force acts before the step and half of it
-//! behind (a symmetric splitting): between, velocities are those of the rest on average, and nothing moves. An impact at such
-//! a stop is what the second half leaves over, so that a floor may speed up, and one that begins to move throws.
+//! behind (a symmetric splitting): between, velocities are those of the rest on average, and nothing moves. The
+//! rate that the second half leaves at such a stop is an impact: a floor that speeds up gives none, one that begins to move at
+//! once does.
 //!
 //! # Source
 //! J. J. Moreau (1988), Unilateral contact and dry friction in finite freedom dynamics; M. Jean, Comput. Methods Appl. Mech.
@@ -34,7 +35,7 @@ use crate::striking::{Answer, Ends, Sizes, Striking, of, zip};
 pub use crate::touching::begin;
 use crate::{Error, Real, touching, vectors};
 
-/// What pushes before a step: the stops that do and the frictions that stick, and half of the impulses of rest.
+/// The stops that push before a step and the frictions that stick, with half of the impulses of rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Pushed<T> {
     pub(crate) set: u32,
@@ -190,8 +191,9 @@ fn strike_stops<T: Real>(
     let answered = Contacts::at(equations, (t, q), |contacts| {
         let sizes = Sizes::of(&contacts, size, speed);
         let (from, laws) = ((&contacts, info, locked), (&restitutions, &bounds, &slid));
-        let striking = Striking::new(from, h, (&ends, &pressing, &sizes), laws, (pushed, halves));
-        let answer = striking.answer(closed, pushed | rested)?;
+        let rests = (rested | pushed, pushed, halves);
+        let striking = Striking::new(from, h, (&ends, &pressing, &sizes), laws, rests);
+        let answer = striking.answer(closed)?;
         // what has stuck in the whole step is where it was
         let back = those(MOST_CONTACTS, |row| has(stuck, row) && number(&answer.directions, row) == 0.0);
         let off = core::array::from_fn(|row| {

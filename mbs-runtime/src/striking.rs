@@ -6,8 +6,8 @@ use crate::moreau::{rebounds, taken};
 use crate::rubbing::{self, Bounds, Hit, Struck};
 use crate::{Info, Real, modes};
 
-/// So many impacts follow each other within a step. The last one is without restitution at all stops that are closed; where it
-/// has no answer, they contradict each other.
+/// At most so many impacts follow each other within a step. The last one takes all closed stops, without restitution. Stops
+/// contradict each other where it has no answer.
 const IN_SEQUENCE: usize = 16;
 /// A rate is 0 below this share of the terms of which it is made.
 const ROUNDING: f64 = 1e-12;
@@ -20,7 +20,7 @@ pub(crate) struct Ends<T> {
     pub rate: [Each<T>; 2],
 }
 
-/// What gaps and rates are compared with, by their rows.
+/// Limits of gaps and of their rates, by their rows.
 pub(crate) struct Sizes {
     /// The depths by which gaps may be behind their stops where modes lead them.
     pub allowed: Each<f64>,
@@ -55,14 +55,15 @@ pub(crate) struct Striking<'a, T> {
     bounds: &'a Bounds<T>,
     /// The directions in which these slid at the start of the step.
     slid: &'a Each<f64>,
-    /// The stops that were rested on there, and half of the impulses of all rests.
+    /// The stops that were rested on there, those of them that pushed, and half of the impulses of all rests.
+    rested: u32,
     pushed: u32,
     halves: &'a Each<T>,
     ends: &'a Ends<T>,
     sizes: &'a Sizes,
     /// ġ − ġ₀
     change: Each<T>,
-    /// h g̈ without the forces of stops, with what their own motion and the way of bodies along them make of it.
+    /// h g̈ without the forces of stops. The motion of the stops and the curvature of their gaps are in it.
     pressing: &'a Each<T>,
     /// The rest of the step behind the closing of a gap: 1 − s.
     rest: Each<T>,
@@ -92,7 +93,7 @@ impl<'a, T: Real> Striking<'a, T> {
         h: T,
         (ends, pressing, sizes): (&'a Ends<T>, &'a Each<T>, &'a Sizes),
         (restitutions, bounds, slid): (&'a Each<T>, &'a Bounds<T>, &'a Each<f64>),
-        (pushed, halves): (u32, &'a Each<T>),
+        (rested, pushed, halves): (u32, u32, &'a Each<T>),
     ) -> Self {
         let one = T::from_f64(1.0);
         let [before, now] = &ends.gap;
@@ -120,6 +121,7 @@ impl<'a, T: Real> Striking<'a, T> {
             restitutions,
             bounds,
             slid,
+            rested,
             pushed,
             halves,
             ends,
@@ -132,9 +134,9 @@ impl<'a, T: Real> Striking<'a, T> {
     }
 
     /// The impulses at the stops that are closed, or that impulses close, one impact after the other; nothing where there
-    /// are none. Those that were `rested` on at the start of the step have a part in the first one, whatever their rates are
+    /// are none. Those that were rested on at the start of the step have a part in the first one, whatever their rates are
     /// without the second half of the rest.
-    pub fn answer(&self, mut closed: u32, rested: u32) -> Option<Answer<T>> {
+    pub fn answer(&self, mut closed: u32) -> Option<Answer<T>> {
         let Self { contacts, ends, shift, .. } = self;
         // written so that a NaN is no growth
         let has_growth = contacts.growth() < growth_limit();
@@ -151,7 +153,7 @@ impl<'a, T: Real> Striking<'a, T> {
             let still = self.still(&impulses);
             let is_last = turn + 1 == IN_SEQUENCE;
             let closing = those(MOST_CONTACTS, |stop| {
-                let takes_part = is_last || turn == 0 && has(rested, stop);
+                let takes_part = is_last || turn == 0 && has(self.rested, stop);
                 has(closed, stop) && (takes_part || number(&rate, stop) <= number(&still, stop))
             });
             let is_hit = |stop: usize| has(closing, stop) && number(&rate, stop) < -number(&still, stop);
@@ -161,14 +163,14 @@ impl<'a, T: Real> Striking<'a, T> {
                 let directions = self.moving(&directions, &rate, &impulses);
                 return Some(Answer { held, impulses, moved, gap, directions, is_impact });
             }
-            let taken = self.taken(closed)?;
+            let taken = self.taken_back(closed)?;
             let approach = if turn == 0 { self.approach() } else { rate };
             let thrown = self.rebounds(&approach);
-            let rests = |stop: usize| number(&thrown, stop) <= number(&taken, stop) + number(&still, stop);
-            held = those(MOST_CONTACTS, |stop| has(closed, stop) && (is_last || rests(stop)));
-            let is_fast =
-                |stop: usize| -number(&approach, stop) > number(&taken, stop) + number(&still, stop);
-            is_impact = is_impact || (0..MOST_CONTACTS).any(|stop| is_hit(stop) && is_fast(stop));
+            let least = |stop: usize| number(&taken, stop) + number(&still, stop);
+            let rests = |stop: usize| is_last || number(&thrown, stop) <= least(stop);
+            held = those(MOST_CONTACTS, |stop| has(closed, stop) && rests(stop));
+            let is_fast = |stop: usize| is_hit(stop) && -number(&approach, stop) > least(stop);
+            is_impact = is_impact || (0..MOST_CONTACTS).any(is_fast);
             let short: Each<T> = core::array::from_fn(|stop| {
                 let later = if turn == 0 { of(&self.rest, stop) * of(&self.change, stop) } else { T::ZERO };
                 let is_still = has(held | self.locked | rubbing, stop);
@@ -240,7 +242,7 @@ impl<'a, T: Real> Striking<'a, T> {
         Some(Struck { impulses, held: self.locked, rubbed: 0, directions: [0.0; MOST_CONTACTS] })
     }
 
-    /// The rates with which gaps close, ġ_s, and what the second half of a rest leaves of them.
+    /// The rates with which gaps close: ġ_s, and at a stop that was rested on the rate that the second half of the rest leaves.
     fn approach(&self) -> Each<T> {
         let second = self.contacts.rates(self.halves);
         core::array::from_fn(|row| match has(self.pushed, row) {
@@ -249,20 +251,17 @@ impl<'a, T: Real> Striking<'a, T> {
         })
     }
 
-    /// The rates that a step takes back from gaps: by the forces at the stops, of which one may bear what several could, and
-    /// by what presses without any.
-    fn taken(&self, closed: u32) -> Option<Each<T>> {
+    /// The changes of rates that forces at the stops make in a step. Since one stop may bear the load of several, they are as
+    /// large as the change without any such force at least.
+    fn taken_back(&self, closed: u32) -> Option<Each<T>> {
         let set = (closed, self.locked);
         let by_forces = taken(self.contacts, set, self.pressing)
             .or_else(|| taken(self.contacts, set, &self.change))
             .or_else(|| (self.locked != 0).then_some([T::ZERO; MOST_CONTACTS]))?;
-        Some(zip(
-            &by_forces,
-            self.pressing,
-            |by_forces, pressing| {
-                if -pressing > by_forces { -pressing } else { by_forces }
-            },
-        ))
+        Some(core::array::from_fn(|stop| {
+            let (by_forces, alone) = (of(&by_forces, stop), -of(self.pressing, stop));
+            if alone > by_forces { alone } else { by_forces }
+        }))
     }
 
     /// The rates −e ġ with which gaps open again.

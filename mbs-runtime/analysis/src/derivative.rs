@@ -16,9 +16,10 @@ use crate::{Error, OperatingPoint};
 const LONGEST: f64 = 0.02;
 /// The number of differences, each with half the step of the one before.
 const LEVELS: usize = 8;
-/// Where they leave more open than [`CORNER`] they are made again, so many times, each with a smaller first step: a mechanism with
-/// a link of a hundredth of its size bends within the longest step, and a corner is one at every step.
+/// Differences that leave more open than [`CORNER`] are made again, so many times. A mechanism with a link of a hundredth of its
+/// size bends within the longest step; a corner is one at every step.
 const AGAIN: usize = 2;
+/// Each time the first step is so many times that of the time before.
 const SMALLER: f64 = 1.0 / 128.0;
 
 /// Differences that leave a larger share of a derivative open than this may hide a corner.

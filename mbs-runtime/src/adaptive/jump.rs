@@ -15,7 +15,7 @@ use crate::{Error, Real, vectors};
 
 /// A gap below this share of the size of the coordinates is closed,
 pub(super) const CLOSED: f64 = 1e-12;
-/// and one within so many times what those are off that are rested on,
+/// and one within so many times the gaps of stops that are rested on,
 const OFF: f64 = 4.0;
 /// and one that closes within this share of the longest step.
 const SOON: f64 = 1e-10;
@@ -62,10 +62,10 @@ impl<D: Dynamics> Jump<'_, D> {
         Gaps::of(equations, at, a.as_ref())
     }
 
-    /// The stops that are rested on and pull and the frictions that hold more than they can or slide against their direction,
-    /// the stops that push, open ones that are closed and do not open; and the constraints of modes that are not met, with
-    /// transitions whose conditions have begun to hold.
-    pub fn look(&mut self, size: f64, off: f64) -> [u32; 4] {
+    /// Five sets: the stops that are rested on and pull, with the frictions that hold more than they can or slide against
+    /// their direction; the stops that push; the stops that are closed, do not open, and are not rested on; the constraints of
+    /// modes that are not met; the transitions whose conditions have begun to hold.
+    pub fn look(&mut self, size: f64, off: f64) -> [u32; 5] {
         let locked = locked(self.dynamics.equations().info(), self.inputs);
         let entered = if locked == 0 { 0 } else { self.hit(locked, size) };
         let slopes = self.slopes();
@@ -98,7 +98,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let judging = Judging { off, room: [a.as_mut(), lambda.as_mut()] };
         // where a mode has been entered, forces are those behind its impulse
         let (due, _) = modes::due(equations, at, inputs, judging, entered == 0);
-        [pulls, pushes, closed, entered | due << MOST_CONTACTS]
+        [pulls, pushes, closed, entered, due]
     }
 
     /// Does something with the responses here.
@@ -181,8 +181,8 @@ pub(super) struct Outcome<T> {
     pub flight: f64,
 }
 
-/// What a jump has found before it decides what rests: the stops that were reached, those that were held before, and those that
-/// are closed; the gaps before impacts, Σ |∂g/∂q|, and the rates below which they are still.
+/// A jump before it is decided which stops are rested on. Stops were reached, were held, or are closed; gaps are those before
+/// impacts, slopes Σ |∂g/∂q|, and gaps are still below the rates `still`.
 pub(super) struct Before<T> {
     pub reached: u32,
     pub held: u32,
@@ -252,7 +252,7 @@ impl<D: Dynamics> Jump<'_, D> {
         slopes: &Each<f64>,
         (held, longest_step, size): (u32, f64, f64),
     ) -> u32 {
-        // within a step positions are off by what the gaps of those tell that are rested on
+        // the gaps of stops that are rested on tell how far positions are off within a step
         let off = |stop: usize| number(gap, stop).abs() / number(slopes, stop);
         let off = (0..self.count()).filter(|stop| has(held, *stop)).map(off).filter(|off| off.is_finite());
         let size = off.fold(CLOSED * size, |size, off| size.max(OFF * off));

@@ -1,4 +1,4 @@
-//! What is rested on behind the impacts of a jump, and what sticks.
+//! Rests behind the impacts of a jump: the stops that are rested on, and the frictions that stick.
 
 use super::dynamics::Dynamics;
 use super::gaps::Stopping;
@@ -61,8 +61,8 @@ impl<D: Dynamics> Jump<'_, D> {
         Ok([held | resting & stuck, closed | not_moving])
     }
 
-    /// With the stops that bear nothing at this moment, but could: a beam on three supports whose load is over the middle one
-    /// may come to lean on either of the others. Without them it would begin to tip before they are seen to close.
+    /// The stops that hold, and those that bear nothing yet. A beam on three supports whose load is over the middle one may lean
+    /// on either of the others next; without them it would begin to tip before the run sees them close.
     fn completed(&mut self, resting: u32, Held { held, forces }: Held<D::Real>) -> u32 {
         let open = resting & !held;
         if open == 0 {

@@ -82,14 +82,13 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         self.stopping.effort = self.effort;
         let Stopping { kept, size, off, .. } = self.stopping;
-        let [pulled, pushing, closed, begun] = self.with_jump(|jump| jump.look(size, off));
+        let [pulled, pushing, closed, entered, begun] = self.with_jump(|jump| jump.look(size, off));
         self.stopping.kept = kept & !pushing;
         // what a jump has looked at already leaves its event
         let known = among(self.happened.all | self.happened.judged, self.dynamics.equations().info());
-        let reached = pulled & !kept | closed & !known | begun;
+        let reached = pulled & !kept | closed & !known | entered | begun << MOST_CONTACTS;
         if reached != 0 {
-            let is_entered = begun & !(u32::MAX << MOST_CONTACTS) != 0;
-            return self.jump_at(reached, !is_entered);
+            return self.jump_at(reached, entered == 0);
         }
         if !self.dynamics.equations().info().modes.transitions.is_empty() {
             self.with_memories(|equations, at, inputs, room| {

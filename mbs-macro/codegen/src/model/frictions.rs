@@ -165,10 +165,14 @@ impl Resolver<'_> {
         found
     }
 
-    /// Puts the frictions of stops behind the others, and refuses what does not go with friction that sticks. Of what holds
-    /// one motion the first holds it; how much one of a stop may hold depends on what the others leave.
-    pub(super) fn check_frictions(&mut self) {
+    /// Puts the frictions of stops behind those of elements. Where several hold one motion, a run lets the first one hold it,
+    /// and finds how much a stop has to hold from what the others leave.
+    pub(super) fn order_frictions(&mut self) {
         self.frictions.sort_by_key(|friction| friction.stop.is_some());
+    }
+
+    /// Refuses what does not go with friction that sticks.
+    pub(super) fn check_frictions(&mut self) {
         let Some(friction) = self.frictions.first() else { return };
         let (name, span) = (friction.quantity.name.clone(), friction.span);
         let mut refuse = |message: String, help: &str| {

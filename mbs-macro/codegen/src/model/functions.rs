@@ -218,7 +218,7 @@ impl Scope<'_> {
                     "the size of its force is `reaction({text})`; one multiplier is `lambda({first})`"
                 )));
             }
-            if let Some(error) = self.is_stop(&row) {
+            if let Some(error) = self.force_of_stop(&row) {
                 return Err(error);
             }
             let error = Diagnostic::new(row.span(), format!("there is no constraint `{text}`"));

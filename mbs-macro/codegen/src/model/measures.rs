@@ -7,7 +7,8 @@ use mbs_symbolic::Algebra;
 use mbs_symbolic::units::Dimension;
 use proc_macro2::Ident;
 
-use super::known::{Source, Typed};
+use super::Meaning;
+use super::known::{Source, Typed, Value};
 use super::names::{Place, Scope};
 use super::stops::impulse_of;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
@@ -94,10 +95,18 @@ impl Scope<'_> {
         Ok(Typed { expr, dimension: Some(Dimension::of(1, 2, -3)) })
     }
 
-    /// The error for the force of a stop.
-    pub(super) fn is_stop(&self, asked: &Ident) -> Option<Diagnostic> {
+    /// The error where the force of a stop is asked for; nothing for the name of something else.
+    pub(super) fn force_of_stop(&self, asked: &Ident) -> Option<Diagnostic> {
         let impulse = impulse_of(asked);
-        self.values.contains_key(&impulse.to_string()).then(|| {
+        let memory = |name: &Ident| match self.values.get(&name.to_string()) {
+            Some(Value::Symbol { symbol, .. }) => match self.meaning(*symbol) {
+                Meaning::Input(at) => at.checked_sub(self.first_memory),
+                _ => None,
+            },
+            _ => None,
+        };
+        let is_stop = memory(asked).is_some_and(|at| memory(&impulse) == Some(at + 1));
+        is_stop.then(|| {
             let help = format!(
                 "`{asked}` is 1 while it is rested on, and `{impulse}` the sum of the impulses of its impacts; where a force is \
                  needed, take a stiff end: `force end on x = -k*ramp(x - gap);`"
@@ -113,7 +122,7 @@ impl Scope<'_> {
         let text = asked.to_string();
         let Some(source) = self.sources.get(&text) else {
             let error = || unknown(asked, "force or element", self.sources.keys());
-            return Err(self.is_stop(asked).unwrap_or_else(error));
+            return Err(self.force_of_stop(asked).unwrap_or_else(error));
         };
         match source.exerts {
             Some(exerts) if exerts.dimension == wanted => {

@@ -234,6 +234,7 @@ impl<'a> Resolver<'a> {
         self.check_solver();
         self.check_stops();
         self.check_frictions();
+        self.order_frictions();
         self.check_modes(declaration);
         if self.dof.is_none() {
             let lines = self.coordinates.iter().filter(|coordinate| !coordinate.is_own()).count();

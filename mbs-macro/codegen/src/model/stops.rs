@@ -248,7 +248,7 @@ impl Resolver<'_> {
         if slopes != gap.slopes && opposite != gap.slopes {
             return true;
         }
-        let message = format!("what rests on `{name}` does not move along its gap");
+        let message = format!("nothing that rests on `{name}` slides along its gap");
         let help = "write the way across it, as in `stop floor: foot.y >= 0 [m] { friction = 0.3; along = foot.x; … }`";
         self.errors.push(Diagnostic::new(name.span(), message).help(help));
         false
