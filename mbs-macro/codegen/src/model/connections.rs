@@ -29,20 +29,31 @@ impl Resolver<'_> {
         self.scope.joints.entry(joint.name.to_string()).or_insert(known);
     }
 
-    /// The rows that a joint has. One that holds an angle between bodies that do not turn
-    /// has no row for it, if it has others.
+    /// The rows that a joint has. One that holds angles has no row for what cannot move at either place, if it has others.
     fn rows_of(&self, joint: &Joint) -> Vec<&'static Row> {
-        let turns = |place: &Attachment| {
-            let body = self.scope.on_body(place).body.to_string();
-            let frame = self.scope.bodies.get(&body);
-            frame.is_none_or(|frame| self.scope.arena.as_number(frame.angle).is_none())
-        };
-        let is_kept = |row: &&Row| row.holds != Holds::Angle;
-        let others: Vec<_> = joint.kind.rows.iter().filter(is_kept).collect();
-        if others.is_empty() || turns(&joint.first) || turns(&joint.second) {
-            return joint.kind.rows.iter().collect();
+        let ends = [&joint.first, &joint.second];
+        let is_kept = |row: &&Row| !ends.into_iter().all(|place| self.is_still(place, row));
+        let kept: Vec<_> = joint.kind.rows.iter().filter(is_kept).collect();
+        if kept.is_empty() || !joint.kind.holds(Holds::Angle) {
+            joint.kind.rows.iter().collect()
+        } else {
+            kept
         }
-        others
+    }
+
+    /// True if what a row holds cannot move at a place: the angle of a body that does not turn, or a coordinate of a middle that
+    /// has none.
+    fn is_still(&self, place: &Attachment, row: &Row) -> bool {
+        let place = self.scope.on_body(place);
+        let Some(frame) = self.scope.bodies.get(&place.body.to_string()) else { return false };
+        let is_number = |value| self.scope.arena.as_number(value).is_some();
+        let [x, y] = frame.origin.map(is_number);
+        match (row.holds, row.suffix) {
+            (Holds::Angle, _) => is_number(frame.angle),
+            (Holds::Place, "_x") => x && place.point.is_none(),
+            (Holds::Place, "_y") => y && place.point.is_none(),
+            (Holds::Place | Holds::Length | Holds::Turns, _) => false,
+        }
     }
 
     pub(super) fn resolve_joint(&mut self, joint: &Joint, doc: &str) {
@@ -80,7 +91,7 @@ impl Resolver<'_> {
         let on = connection.on(&algebra);
         let is_left_out = |row: &&Row| !rows.iter().any(|kept| kept.suffix == row.suffix);
         let mut left_out = joint.kind.rows.iter().filter(is_left_out);
-        // between bodies that do not turn every angle is 0
+        // between bodies that do not turn every angle is 0, as is the way between those that only turn
         let contradicts = left_out.any(|row| !(row.phi)(&on).is_zero());
         let equations = rows.iter().map(|row| ((row.phi)(&on).expr(), row.dimension(on.unit))).collect();
         if contradicts {
