@@ -20,7 +20,7 @@ const EQUALS: &str = ClauseKind::EQUALS;
 #[derive(Clone, Copy)]
 pub(super) struct Shape {
     word: &'static str,
-    kind: &'static JointKind,
+    pub kind: &'static JointKind,
 }
 
 impl Shape {

@@ -4,18 +4,20 @@
 //! in no time.
 
 use proc_macro2::{Group, Ident, Literal, TokenStream, TokenTree};
-use quote::{ToTokens, format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote_spanned};
 use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
 use syn::{Error, Result, Token, token};
 
 use super::choices::condition;
-use super::joints::two_places;
+use super::joints::{Shape, two_places};
 use super::words::{block, equals, helped, name, property_name};
-use super::{Attachment, Element, ElementProperty, ItemKind, Load, Vector, words};
+use super::{Attachment, Clause, Element, ElementProperty, ItemKind, Joint, Load, Vector, words};
 use crate::mechanics::elements::{ElementKind, LOOSE_PRISMATIC, LOOSE_REVOLUTE};
 
 const CLEARANCE: &str = "clearance";
+/// The properties of joints that hit in no time, beside sizes.
+const OF_STOPS: [&str; 3] = ["restitution", "settle", "friction"];
 
 /// True of a joint that has a `clearance`, before its block or its end.
 pub(super) fn is_loose(input: ParseStream<'_>) -> bool {
@@ -44,6 +46,19 @@ pub(super) fn joint(input: ParseStream<'_>, word: &Ident) -> Result<Vec<ItemKind
     let along = along(input, kind, &example)?;
     let clearance = clearance(input, &example)?;
     let properties = properties(input, &example)?;
+    if is_zero(&clearance) {
+        let is_known = |name: &Ident| {
+            kind.properties.iter().any(|row| name == row.name) || OF_STOPS.iter().any(|row| name == row)
+        };
+        if let Some((name, _)) = properties.iter().find(|(name, _)| !is_known(name)) {
+            return Err(helped(
+                name.span(),
+                format!("a joint with play has no `{name}`"),
+                format!("as in `{example}`"),
+            ));
+        }
+        return ideal(word, (name, [first, second], along));
+    }
     let joint = Loose { kind, name, first, second, along, clearance, properties };
     if joint.has("stiffness") || joint.has("modulus") {
         return Ok(vec![joint.contact()?]);
@@ -57,6 +72,31 @@ pub(super) fn joint(input: ParseStream<'_>, word: &Ident) -> Result<Vec<ItemKind
         message,
         format!("as in `{example}`; a `restitution` alone is that of stops"),
     ))
+}
+
+/// True of the number 0, with a unit or without.
+fn is_zero(clearance: &TokenStream) -> bool {
+    match clearance.clone().into_iter().next() {
+        Some(TokenTree::Literal(literal)) => {
+            let is_alone =
+                clearance.clone().into_iter().skip(1).all(|token| matches!(token, TokenTree::Group(_)));
+            is_alone && literal.to_string().parse() == Ok(0.0)
+        }
+        _ => false,
+    }
+}
+
+/// The joint without play, which is that with a clearance of 0.
+fn ideal(
+    word: &Ident,
+    (name, ends, along): (Ident, [Attachment; 2], Option<Group>),
+) -> Result<Vec<ItemKind>> {
+    let shape = Shape::named(&word.to_string())
+        .ok_or_else(|| Error::new(word.span(), format!("`{word}` is no joint")))?;
+    let [first, second] = ends;
+    let clauses = along.map(|along| syn::parse2::<Vector>(along.into_token_stream()).map(Clause::Along));
+    let clauses = clauses.transpose()?.into_iter().collect();
+    Ok(vec![ItemKind::Joint(Box::new(Joint { kind: shape.kind, name, first, second, clauses }))])
 }
 
 fn is_next(input: ParseStream<'_>, word: &str) -> bool {
@@ -264,14 +304,17 @@ fn until_comma(input: ParseStream<'_>) -> Result<TokenStream> {
 
 /// x and y of a place.
 fn position(place: &Attachment) -> [TokenStream; 2] {
-    let Attachment { prefix, body, point } = place;
-    let points: Vec<_> = point.iter().collect();
-    [quote!(x), quote!(y)]
-        .map(|component| quote_spanned!(body.span()=> #(#prefix.)* #body #(.#points)* .#component))
+    ["x", "y"].map(|component| member(place, component))
 }
 
 /// The angle of the body of a place.
 fn angle(place: &Attachment) -> TokenStream {
-    let Attachment { prefix, body, .. } = place;
-    quote_spanned!(body.span()=> #(#prefix.)* #body.angle)
+    member(place, "angle")
+}
+
+/// One of these with all names of the path: before composition nobody knows which of them is an instance.
+fn member(place: &Attachment, name: &str) -> TokenStream {
+    let Attachment { prefix, body, point } = place;
+    let (points, name) = (point.iter(), Ident::new(name, body.span()));
+    quote_spanned!(body.span()=> #(#prefix.)* #body #(.#points)* .#name)
 }
