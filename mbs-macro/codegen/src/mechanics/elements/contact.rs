@@ -4,7 +4,7 @@
 //! positive, the first body is pushed along n by N, which is not less than 0:
 //!
 //! * `stiffness` k: N = k δ + c δ̇, with a `damping` c.
-//! * `modulus` E*: N = K δ^(3/2), K = ⁴⁄₃ E* √R, Hertz's law of spheres; 1/R is the sum of the curvatures.
+//! * `modulus` E*: N = K δ^(3/2), K = ⁴⁄₃ E* √R, `law = hertz` of spheres, which need not be said; 1/R is the sum of the curvatures.
 //! * With a `restitution` e at a `speed` v₀ both are multiplied by 1 + χ δ̇/v₀. By Hunt and Crossley (1975) χ is 3(1 − e)/2, by
 //!   Lankarani and Nikravesh (1990) 3(1 − e²)/4, by Flores, Machado, Silva and Martins (2011) 8(1 − e)/(5e).
 //!
@@ -23,7 +23,9 @@ const LAW: &str = "law";
 const HUNT_CROSSLEY: &str = "hunt_crossley";
 const LANKARANI_NIKRAVESH: &str = "lankarani_nikravesh";
 const FLORES: &str = "flores";
-const WORDS: &[&str] = &[HUNT_CROSSLEY, LANKARANI_NIKRAVESH, FLORES];
+/// That of a `modulus` alone, which loses nothing.
+const HERTZ: &str = "hertz";
+const WORDS: &[&str] = &[HUNT_CROSSLEY, LANKARANI_NIKRAVESH, FLORES, HERTZ];
 const EXAMPLE: &str =
     "{ stiffness = 1 [MN/m]; restitution = 0.6; speed = 1 [m/s]; coefficient = 0.3; transition = 1 [mm/s]; }";
 
@@ -102,7 +104,23 @@ fn said(given: &Given<'_>) -> Result<(), Unsaid> {
         let what = "`stiffness` or `modulus`".to_owned();
         return Err(Unsaid::Missing { what, example: EXAMPLE.to_owned() });
     }
-    let pairs = [("restitution", "speed"), ("speed", "restitution"), (LAW, "restitution")];
+    let is_hertz = given.word(LAW) == Some(HERTZ);
+    if is_hertz {
+        if let Some(property) = ["restitution", "speed"].into_iter().find(|property| given.has(property)) {
+            let others = WORDS.iter().copied().filter(|word| *word != HERTZ).collect();
+            return Err(Unsaid::OfOthers { property, word: HERTZ, others });
+        }
+        for (second, keep) in [
+            ("stiffness", "`law = hertz` takes a `modulus`: keep one of them"),
+            ("damping", "`law = hertz` loses nothing: keep one of them"),
+        ] {
+            if given.has(second) {
+                return Err(Unsaid::Twice { first: LAW, second, keep });
+            }
+        }
+    }
+    let of_law = if is_hertz { "modulus" } else { "restitution" };
+    let pairs = [("restitution", "speed"), ("speed", "restitution"), (LAW, of_law)];
     for (of, needed) in
         pairs.into_iter().chain([("coefficient", "transition"), ("transition", "coefficient")])
     {
