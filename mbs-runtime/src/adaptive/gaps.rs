@@ -15,6 +15,24 @@ use crate::{Info, Real, modes};
 /// The constraints of a mode are met within so many times the tolerance.
 const TOLERANCES: f64 = 100.0;
 
+/// What follows itself within this share of the longest step does so often.
+const OFTEN: f64 = 1e-6;
+
+/// When something happened last, and how often it did in close sequence.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Often(f64, u32);
+
+impl Often {
+    const NEVER: Self = Self(f64::NEG_INFINITY, 0);
+
+    /// It happens at this time; the number of times in close sequence before.
+    pub fn at(&mut self, t: f64, longest_step: f64) -> u32 {
+        let count = if t - self.0 < OFTEN * longest_step { self.1 + 1 } else { 0 };
+        *self = Self(t, count);
+        count
+    }
+}
+
 /// The memory of a run of its stops.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stopping {
@@ -41,8 +59,10 @@ pub(super) struct Stopping {
     pub is_too_long: bool,
     /// The stops that are rested on because they were not left, until they push.
     pub kept: u32,
-    /// The time at which conditions began to hold last, and how often they did in close sequence.
-    pub passed: (f64, u32),
+    /// Conditions that began to hold without being found.
+    pub passed: Often,
+    /// Impacts.
+    pub struck: Often,
 }
 
 impl Stopping {
@@ -59,7 +79,8 @@ impl Stopping {
             effort: Effort::NONE,
             is_too_long: false,
             kept: 0,
-            passed: (f64::NEG_INFINITY, 0),
+            passed: Often::NEVER,
+            struck: Often::NEVER,
         }
     }
 }

@@ -8,7 +8,7 @@ use super::events::{Happened, Watched};
 use super::gaps::{Stopping, among, of_run, stop_in, watched_of};
 use super::jump::{CLOSED, Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
-use crate::contact::{MOST_CONTACTS, bit, has, number, those};
+use crate::contact::{Each, MOST_CONTACTS, bit, has, number, those};
 use crate::equations::{At, Equations};
 use crate::locks::placed;
 use crate::modes::{self, Judging};
@@ -25,10 +25,10 @@ const FLIGHTS: f64 = 2.0;
 const SHORTER: f64 = 0.1;
 /// unless it is as short already beside the longest one.
 const SHORT: f64 = 1e-4;
-/// Conditions begin to hold too often where this share of the longest step is between them,
-const OFTEN: f64 = 1e-6;
-/// so many times in sequence.
+/// Conditions that begin to hold often in sequence are endless behind so many,
 const MOST_OFTEN: u32 = 1000;
+/// and impacts behind so many: those of a bounce with a restitution near 1 come to an end by `settle`.
+const MOST_IMPACTS: u32 = 10_000;
 /// A run ends where so many steps in sequence do not leave a stop.
 const MOST_LOOKS: u8 = 8;
 
@@ -295,11 +295,27 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             return Ok(());
         }
         self.happened.due |= watched_of((passed & !found) << MOST_CONTACTS);
-        let (t, longest, (last, count)) = (self.now.t.to_f64(), self.effort.longest, self.stopping.passed);
-        let count = if t - last < OFTEN * longest { count + 1 } else { 0 };
-        self.stopping.passed = (t, count);
-        let info = self.dynamics.equations().info();
-        if count > MOST_OFTEN { Err(modes::endless(info, t, passed)) } else { Ok(()) }
+        let (t, longest) = (self.now.t.to_f64(), self.effort.longest);
+        if self.stopping.passed.at(t, longest) <= MOST_OFTEN {
+            return Ok(());
+        }
+        Err(modes::endless(self.dynamics.equations().info(), t, passed))
+    }
+
+    /// Counts impacts.
+    ///
+    /// # Errors
+    /// [`Error::EndlessImpacts`] where they follow each other too often.
+    fn note_struck(&mut self, impulses: &Each<D::Real>) -> Result<(), Error> {
+        let stops = self.dynamics.equations().info().stops.iter().zip(impulses);
+        let mut struck = stops.filter(|(_, impulse)| **impulse > D::Real::default());
+        let (t, longest) = (self.now.t.to_f64(), self.effort.longest);
+        match struck.next() {
+            Some((stop, _)) if self.stopping.struck.at(t, longest) > MOST_IMPACTS => {
+                Err(Error::EndlessImpacts { t, stop: stop.name })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// One of them. At a start forces are not known before it.
@@ -327,6 +343,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         });
         let (q, v, Outcome { held: now_held, closed, impulses, flight }, directions) = found?;
         self.stopping = stopping;
+        self.note_struck(&impulses)?;
         // a step over many flights would round the first one away
         self.control.next = self.control.next.min(FLIGHTS * flight);
         if !self.happened.is_set {

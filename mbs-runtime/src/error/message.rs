@@ -163,6 +163,12 @@ impl fmt::Display for Error {
                  drive that pushes against one, friction that jams what slides, or steps longer than the way between two",
                 t = Shown(t)
             ),
+            Self::EndlessImpacts { t, stop } => write!(
+                f,
+                "at t = {t} s impacts at the stop `{stop}` and others follow each other without an end: stops close on what is \
+                 between them; end the run before, or let one of them give way by a `stiffness`",
+                t = Shown(t)
+            ),
             Self::VelocityForce { coordinate } => write!(
                 f,
                 "the force along, or the rate of `{coordinate}` depends on velocities or reactions, and RATTLE takes forces of positions, time and inputs alone; leave dampers, friction and particles beside the \

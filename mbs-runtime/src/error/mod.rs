@@ -210,6 +210,13 @@ pub enum Error {
         /// One of the stops that are hit.
         stop: &'static str,
     },
+    /// Impacts that follow each other at one moment without an end.
+    EndlessImpacts {
+        /// The time in s.
+        t: f64,
+        /// One of the stops that are hit.
+        stop: &'static str,
+    },
     /// A force that depends on velocities or reactions, for a method that takes none.
     VelocityForce {
         /// A coordinate along which it acts.
