@@ -9,7 +9,7 @@
 
 use super::programs::{Closing, Declared, Programs};
 use super::span::check_span;
-use super::start;
+use super::{start, stops};
 use crate::derive::Equations;
 use crate::diagnostics::{Diagnostic, Diagnostics, joined};
 use crate::independence::assembly::{CLOSED, Position};
@@ -41,7 +41,7 @@ pub fn check_closure(model: &Model, equations: &Equations, plan: &Plan) -> Resul
             return Err(error.unwrap_or_else(|| failed(model, &programs, &declared, failure)).into());
         }
     };
-    if let Some(error) = start::without_place(model, &at) {
+    if let Some(error) = start::without_place(model, &at).or_else(|| stops::behind(model, &at)) {
         return Err(error.into());
     }
     check_redundant(model, plan, &programs, &at, &phi)?;

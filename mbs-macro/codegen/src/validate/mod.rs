@@ -4,7 +4,7 @@
 //! # How it works
 //!
 //! * `closure` assembles the mechanism from its start by `programs`, as the runtime will do it. `start`
-//!   holds declared values to a thousandth of the mechanism.
+//!   holds declared values to a thousandth of the mechanism, `stops` looks on which side of its stops it is.
 //! * `span` follows the span that `closes` promises, by continuation from the start.
 //! * `validation` runs the programs at random points against jets, which take derivatives by the chain
 //!   rule on numbers. Bounds of running errors say how far they may differ. A disagreement is an error that
@@ -20,6 +20,7 @@ mod closure;
 mod programs;
 mod span;
 mod start;
+mod stops;
 mod validation;
 
 use mbs_symbolic::{Undetermined, Unknown};

@@ -177,7 +177,7 @@ fn is_length(model: &Model, coordinate: usize) -> bool {
 }
 
 /// To six digits, as short as that goes.
-fn rounded(value: f64) -> String {
+pub fn rounded(value: f64) -> String {
     let short = format!("{value:.5e}").parse().unwrap_or(value);
     // what a reader counts the zeros of is written with a power of ten
     if short == 0.0 || (1e-4..1e7).contains(&short.abs()) { format!("{short}") } else { format!("{short:e}") }
