@@ -9,6 +9,7 @@
 use mbs_symbolic::{Arena, Expr, Function, Node, Pieces, Stage, Symbol};
 use rustc_hash::FxHashMap as HashMap;
 
+use super::seams::Uses;
 use crate::derive::Equations;
 use crate::inputs::{Input, Inputs};
 use crate::model::Model;
@@ -54,13 +55,15 @@ pub fn corners(model: &mut Model, equations: &Equations, inputs: &Inputs) -> (Ve
     let first_memory = model.inputs.len().saturating_sub(model.memories);
     let looked_at = Looked { inputs, time: model.time, first_memory };
     let depends = looked_at.depends(&model.arena, &roots);
+    let uses = Uses::new(&model.arena, &roots);
     let (mut corners, mut switches) = (Vec::new(), Vec::new());
     for (node, on) in pieces(&model.arena, &roots, &depends) {
         let is_of_time = on.time && !on.motion;
         let found = knots(&mut model.arena, node, is_of_time);
-        let Some((argument, knots)) = found.filter(|(_, knots)| !knots.at.is_empty()) else {
+        let Some((argument, mut knots)) = found.filter(|(_, knots)| !knots.at.is_empty()) else {
             continue;
         };
+        knots.jumps &= !uses.only_bend(&model.arena, node, argument);
         let alternatives = if is_of_time { alternatives(&mut model.arena, argument) } else { vec![argument] };
         for piece in alternatives {
             let line = looked_at.affine(&mut model.arena, piece).filter(|_| is_of_time);

@@ -6,6 +6,7 @@ mod correction;
 mod masses;
 mod minimum_norm;
 mod programs;
+mod seams;
 mod step;
 mod system;
 mod unsolvable;
