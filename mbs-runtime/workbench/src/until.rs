@@ -25,7 +25,8 @@ pub enum Ending {
 }
 
 impl Until {
-    /// The name of a declared event; that of a mode or a stop, which ends the run where it is entered or hit; or a condition
+    /// The name of a declared event; that of a mode, a stop or friction that sticks, which ends the run where it is entered, is hit
+    /// or begins to stick or slide; the condition of a `when`, as it is declared; or a condition
     /// of the form `x3 > 200mm`: a coordinate, the rate `der(…)` of one, an output, a memory, or the multiplier `lambda(…)`
     /// of a constraint, and a value with an optional unit.
     ///
@@ -33,9 +34,12 @@ impl Until {
     /// Another form, a name that the mechanism does not have, a value of another dimension.
     pub fn parse(info: &Info, text: &str) -> Result<Self, Error> {
         let text = text.trim();
-        let stops = (0..MOST_EVENTS).rev().take(info.stops.len());
-        let mut events = (0..info.events.len()).chain(stops);
-        if let Some(at) = events.find(|event| info.event_name(*event) == Some(text)) {
+        // stops, frictions that stick and conditions of `when` count down from the last one
+        let mut events = (0..info.events.len()).chain((info.events.len()..MOST_EVENTS).rev());
+        let wanted = plain(text);
+        if let Some(at) =
+            events.find(|event| info.event_name(*event).is_some_and(|name| plain(name) == wanted))
+        {
             return Ok(Self { text: text.to_owned(), ending: Ending::Event(at) });
         }
         if let Some(entered) = entered(info, of_mode(text)) {
@@ -82,6 +86,28 @@ impl Until {
     }
 }
 
+/// A name or a condition without blanks, and with the numbers of repeated names as they are declared: `s[2]` is `s_2`.
+fn plain(text: &str) -> String {
+    let mut plain = String::new();
+    let mut rest = text;
+    while let Some(letter) = rest.chars().next() {
+        rest = &rest[letter.len_utf8()..];
+        let digits = rest.find(']').map(|end| &rest[..end]).filter(|digits| {
+            letter == '[' && !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit())
+        });
+        match digits {
+            Some(digits) => {
+                plain += "_";
+                plain += digits;
+                rest = &rest[digits.len() + 1..];
+            }
+            None if letter.is_whitespace() => {}
+            None => plain.push(letter),
+        }
+    }
+    plain
+}
+
 /// A limit that a memory does not jump to but passes, beside one of a comparison: `n > 2` becomes true with 3.
 fn beside(value: f64, direction: Direction, holds_there: bool) -> f64 {
     let little = (1e-12 * value.abs()).max(f64::MIN_POSITIVE);
@@ -106,6 +132,7 @@ fn entered(info: &Info, name: &str) -> Option<Threshold> {
 fn no_condition(info: &Info, text: &str) -> Error {
     let events = info.events.iter().map(|event| event.name);
     let names = events.chain(info.stops.iter().map(|stop| stop.name));
+    let names = names.chain(info.frictions.iter().map(|friction| friction.name));
     let names = names.chain(info.modes.modes.iter().map(|mode| mode.name));
     let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
     let declared = match &names[..] {
@@ -194,6 +221,11 @@ mod tests {
         is("x >= 20 mm", Measured::Position(1), 0.02, Direction::Rising);
         is("der(x) < -5 mm/s", Measured::Velocity(1), -0.005, Direction::Falling);
         is("der(theta) > 60rpm", Measured::Velocity(0), std::f64::consts::TAU, Direction::Rising);
+        // of a `when` it is the event where that begins to hold
+        for text in ["theta > 1", "theta>1", "t > 9[s]"] {
+            assert!(matches!(read(text), Ok(Ending::Event(_))), "{text}: {:?}", read(text));
+        }
+        assert_eq!(plain("force(l.s[12]) > 5 [N]"), "force(l.s_12)>5[N]");
         // a bare number is in the unit that tables show
         is("opening > 20", Measured::Output(0), 0.02, Direction::Rising);
         is("lambda(rod) > 3N", Measured::Multiplier(0), 3.0, Direction::Rising);
