@@ -331,6 +331,33 @@ fn exact_data_give_exact_values() {
     }
 }
 
+/// Restitution and friction of a block that slides against a wall and comes to rest: derivatives go through the impact and the
+/// halt. Data are of the closed form.
+#[test]
+fn restitution_and_friction_are_found_again() {
+    let (speed, e, mu) = (3.0_f64, 0.7, 0.15);
+    let text = "Block { dof = 1; param e = 0.4 where e >= 0; param mu = 0.25 where mu >= 0;
+        body block (x) { mass = 2 [kg]; }
+        stop wall: x <= 1 [m] { restitution = e; }
+        friction grip (block, ground) along (1, 0) { coefficient = mu; normal = 19.62 [N]; law = coulomb; }
+        start { x = 0; der(x) = 3 [m/s]; } }";
+    let live = Text::declaration("block", text).compile().unwrap_or_else(|error| panic!("{error}"));
+    let a = mu * 9.81;
+    let hit = (speed - (speed.powi(2) - 2.0 * a).sqrt()) / a;
+    let back = e * (speed - a * hit);
+    let at = |t: &f64| {
+        let since = (t - hit).min(back / a);
+        if *t < hit { speed * t - 0.5 * a * t * t } else { 1.0 - back * since + 0.5 * a * since * since }
+    };
+    let times = instants(120, 0.02);
+    let exact: Vec<f64> = times.iter().map(at).collect();
+    let experiment = Experiment::of(live.declared_info()).measured("x", &times, &exact);
+    let fit = experiment.unknown("e", 0.5).unknown("mu", 0.2).fit(&trials_of_text(&live)).unwrap();
+    for (estimate, truth) in fit.estimates.iter().zip([e, mu]) {
+        assert!((estimate.value - truth).abs() < 1e-7, "{estimate:?}");
+    }
+}
+
 /// True damping 0, which `where c >= 0` bounds; noise would have it below.
 #[test]
 fn declared_and_given_bounds_hold() {
