@@ -1,5 +1,6 @@
 //! Mechanisms from texts: what compiles, what is answered, and runs of what is compiled.
 
+mod costs;
 mod cranks;
 mod errors;
 mod exact;
