@@ -16,6 +16,9 @@ pub struct DeclaredStop {
     /// The place among the inputs of the memory that is 1 while it is rested on; that of the sum of its impulses is behind
     /// it.
     pub memory: usize,
+    /// The place among the inputs of the memory of the force with which it bears what rests on it, if an output or a
+    /// condition asks for that.
+    pub force: Option<usize>,
     /// The gap, unless it is too long to read.
     pub formula: &'static str,
 }

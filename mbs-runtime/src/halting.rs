@@ -58,7 +58,7 @@ pub(crate) fn halt<T: Real>(
     let info = equations.info();
     let (friction, locked) = (free_frictions(info), locked(info, inputs));
     if friction | locked == 0 {
-        if rubbing::all_rubbing(info) != 0 {
+        if info.holds() {
             hold(equations, At { t, q, v }, inputs, [changes.q, changes.rows]);
         }
         return Ok(false);

@@ -280,15 +280,13 @@ impl Info {
     }
 
     /// The memories that tell what state a mechanism is in, by their places among the inputs: of clocks and conditions, of
-    /// stops and modes, and the directions of frictions. The forces with which frictions and modes hold are no part of it,
-    /// nor is what a run remembers of conditions.
+    /// stops and modes, and the directions of frictions. The forces with which stops, frictions and modes hold are no part
+    /// of it, nor is what a run remembers of conditions.
     pub fn told_memories(&self) -> impl Iterator<Item = usize> + use<> {
-        let (frictions, modes) = (self.frictions, self.modes);
-        let first = self.free_inputs().len();
+        let (info, first) = (*self, self.free_inputs().len());
         let is_kept = move |at: &usize| {
-            frictions.iter().any(|friction| friction.memory + 1 == *at)
-                || modes.locks.iter().any(|lock| lock.held == *at)
-                || modes.transitions.iter().any(|transition| transition.memory == *at)
+            info.force_memories().any(|(_, memory)| memory == *at)
+                || info.modes.transitions.iter().any(|transition| transition.memory == *at)
         };
         (first..self.inputs.len()).filter(move |at| !is_kept(at))
     }
@@ -318,11 +316,6 @@ impl Info {
     /// Those of them that decide themselves whether they hold: stops and frictions.
     pub(crate) const fn watched_contacts(&self) -> usize {
         self.stops.len() + self.frictions.len()
-    }
-
-    /// True if memories have forces with which frictions stick, or constraints of modes hold.
-    pub const fn holds(&self) -> bool {
-        self.frictions.len() + self.modes.locks.len() > 0
     }
 
     /// True if conditions of transitions depend on forces or accelerations.

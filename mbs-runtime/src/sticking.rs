@@ -14,7 +14,7 @@
 
 use crate::contact::{Contacts, Each, Gaps, MOST_CONTACTS, bit, has, number, share, those};
 use crate::equations::{At, Equations};
-use crate::locks::{all_stops, locked, note_multipliers};
+use crate::locks::{locked, note_forces};
 use crate::pressing::{held, pressed};
 use crate::rubbing::{Bounds, Hit, Struck};
 use crate::{Error, Info, Real, rubbing, vectors};
@@ -270,7 +270,7 @@ pub(crate) fn decide<T: Real>(
             let direction = number(&found.directions, row);
             set(info, inputs, row, (direction, force.unwrap_or_default()));
         }
-        note_multipliers(info, inputs, found.held, &found.forces);
+        note_forces(info, inputs, found.held, &found.forces);
         // what a mode pulls away leaves its stop
         let leaves = |stop: usize| {
             number(&found.forces, stop) <= 0.0 && number(&found.accelerations, stop) > found.none
@@ -301,7 +301,7 @@ pub fn hold<T: Real>(
     [a, lambda]: [&mut [T]; 2],
 ) {
     let info = equations.info();
-    if held(equations, inputs) & !all_stops(info) == 0 {
+    if held(equations, inputs) & remembered(info) == 0 {
         let_go(info, inputs);
     } else {
         measure(equations, at, inputs, [a, lambda]);
@@ -316,26 +316,25 @@ pub(crate) fn measure<T: Real>(
     [a, lambda]: [&mut [T]; 2],
 ) {
     let info = equations.info();
-    let holding = held(equations, inputs) & !all_stops(info);
+    let holding = held(equations, inputs);
     let_go(info, inputs);
     equations.free_reactions(at, inputs, a, lambda);
     let (_, forces) = pressed(equations, at, inputs, a, Some(lambda));
     for (row, _) in frictions(info).filter(|(row, _)| has(holding, *row)) {
         set(info, inputs, row, (0.0, forces.get(row).copied().unwrap_or_default()));
     }
-    note_multipliers(info, inputs, holding, &forces);
+    note_forces(info, inputs, holding, &forces);
 }
 
-/// The memories of the forces with which frictions stick and of the multipliers of modes, by their rows.
-fn force_memories(info: &Info) -> impl Iterator<Item = (usize, usize)> {
-    let of_frictions = frictions(info).map(|(row, memory)| (row, memory + 1));
-    of_frictions.chain(info.locks().map(|(row, lock)| (row, lock.held)))
+/// The contacts whose forces have a memory.
+fn remembered(info: &Info) -> u32 {
+    info.force_memories().fold(0, |set, (row, _)| set | bit(row))
 }
 
-/// The values of these memories.
+/// The values of the memories of forces.
 pub(crate) fn remembered_forces<T: Real>(info: &Info, inputs: &[T]) -> Each<T> {
     let mut forces = [T::ZERO; MOST_CONTACTS];
-    for (row, memory) in force_memories(info) {
+    for (row, memory) in info.force_memories() {
         if let (Some(to), Some(force)) = (forces.get_mut(row), inputs.get(memory)) {
             *to = *force;
         }
@@ -345,7 +344,7 @@ pub(crate) fn remembered_forces<T: Real>(info: &Info, inputs: &[T]) -> Each<T> {
 
 /// Sets these memories.
 pub(crate) fn remember_forces<T: Real>(info: &Info, inputs: &mut [T], forces: &Each<T>) {
-    for (row, memory) in force_memories(info) {
+    for (row, memory) in info.force_memories() {
         if let (Some(to), Some(force)) = (inputs.get_mut(memory), forces.get(row)) {
             *to = *force;
         }
@@ -357,5 +356,5 @@ fn let_go<T: Real>(info: &Info, inputs: &mut [T]) {
     for (row, _) in frictions(info) {
         set(info, inputs, row, (direction(info, inputs, row), T::ZERO));
     }
-    note_multipliers(info, inputs, 0, &[T::ZERO; MOST_CONTACTS]);
+    note_forces(info, inputs, 0, &[T::ZERO; MOST_CONTACTS]);
 }

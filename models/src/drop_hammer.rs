@@ -65,7 +65,7 @@ mechanism! {
         /// Force of the rolls on the board.
         output grip [kN] = -lambda(board);
         /// Sum of the impulses of all blows.
-        output blows [N*s] = anvil_impulse;
+        output blows [N*s] = impulse(anvil);
         /// 1 while the rolls grip the board.
         output gripped = gripped;
     }

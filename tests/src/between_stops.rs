@@ -78,6 +78,19 @@ pub fn letting_go(number: u64, text: &str) -> String {
     text.trim_end().trim_end_matches('}').to_owned() + &conditions + "}\n"
 }
 
+/// The same with the force of every stop as an output behind the others, and a memory that counts how often the first one
+/// begins to bear much.
+pub fn bearing(text: &str) -> String {
+    let names = text.lines().filter_map(|line| line.trim_start().strip_prefix("stop ")?.split(':').next());
+    let names: Vec<&str> = names.collect();
+    let outputs = names.iter().map(|name| format!("    output n_{name} [N] = force({name});\n"));
+    let counts = format!(
+        "    memory presses [1] = 0;\n    when force({}) > 20 [N] {{ set presses = presses + 1; }}\n",
+        names[0]
+    );
+    text.trim_end().trim_end_matches('}').to_owned() + &outputs.collect::<String>() + &counts + "}\n"
+}
+
 /// A random mechanism: masses on springs, hung in joints of their own, between stops, some of which say the same or are
 /// reached at once. All start at 0, before every stop or at it.
 pub fn random(number: u64) -> (String, usize) {

@@ -164,6 +164,7 @@ fn stop(stop: &compiled::Stop) -> DeclaredStop {
         unit,
         dimension: dimension(*of),
         memory: stop.memory,
+        force: stop.force,
         formula: text(&stop.formula),
     }
 }

@@ -137,6 +137,7 @@ fn random_mechanisms() {
 #[test]
 fn random_mechanisms_between_stops() {
     compare_random("stops", |number| between_stops::random(number).0);
+    compare_random("bearing", |number| between_stops::bearing(&between_stops::random(number).0));
 }
 
 /// Random mechanisms of a kind.
@@ -188,6 +189,7 @@ fn conditions_on_forces() {
 #[test]
 fn random_mechanisms_on_rough_stops() {
     compare_random("thrown", |number| thrown::random(number).0);
+    compare_random("bearing thrown", |number| between_stops::bearing(&thrown::random(number).0));
 }
 
 #[test]

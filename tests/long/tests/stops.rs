@@ -3,9 +3,11 @@
 
 use mbs_live::{Live, Prepared, Run, Text};
 use mbs_runtime::equations::At;
-use mbs_runtime::{Adaptive, Dop853, Error, Sampled, System, Tolerances, mechanism};
+use mbs_runtime::{Adaptive, Dop853, Error, Mechanism, Sampled, System, Tolerances, mechanism};
 use paths::EXHAUSTIVE;
-use tests::{between_stops, thrown};
+use tests::between_stops::{self, bearing};
+use tests::random::Random;
+use tests::thrown;
 
 const TIGHT: Tolerances = Tolerances { rtol: 1e-10, atol: 1e-12, max_step: f64::INFINITY, first_step: None };
 
@@ -51,32 +53,111 @@ fn a_ball_in_a_box_keeps_its_energy() -> Result<(), Error> {
     Ok(())
 }
 
-/// Energy does not grow, no gap becomes negative, and a run ends in its time.
+mechanism! {
+    /// Balls in a row between walls, which nothing drives.
+    Row {
+        dof = 3;
+        param m1 = 1 [kg] where m1 > 0;
+        param m2 = 1 [kg] where m2 > 0;
+        param m3 = 1 [kg] where m3 > 0;
+        param e = 1;
+        body one (x1) { mass = m1; }
+        body two (x2) { mass = m2; }
+        body three (x3) { mass = m3; }
+        stop left: x1 >= 0 [m] { restitution = e; }
+        stop first: x2 - x1 >= 0 [m] { restitution = e; }
+        stop second: x3 - x2 >= 0 [m] { restitution = e; }
+        stop right: x3 <= 1 [m] { restitution = e; }
+        start { x1 = 0.25 [m]; x2 = 0.5 [m]; x3 = 0.75 [m]; }
+    }
+}
+
+/// 10⁵ impacts of balls with random masses, speeds and restitutions, or 4,000 in the short run: none gives energy, and without
+/// loss it is kept, but for rounding. Every second row is symmetric, so that two stops are hit at once, or three.
+#[test]
+fn random_rows_of_balls_gain_no_energy() -> Result<(), Error> {
+    let (each, count) = if EXHAUSTIVE { (1200, 120) } else { (200, 30) };
+    let (mut impacts, mut at_once) = (0, 0);
+    for number in 0..count {
+        let mut random = Random::new(number ^ 0x7777);
+        let mut whole = |from: i64, to: i64| (from + random.below((to - from + 1) as usize) as i64) as f64;
+        let [m1, m2, m3] = [(); 3].map(|()| whole(1, 6));
+        let [v1, v2, v3] = [(); 3].map(|()| whole(-8, 8) / 4.0);
+        let e = whole(6, 8) / 8.0;
+        let is_symmetric = number % 2 == 0;
+        let (m3, v2, v3) = if is_symmetric { (m1, 0.0, -v1) } else { (m3, v2, v3) };
+        let row = Row::new(RowParameters { m1, m2, m3, e })?;
+        let mut start = row.declared_start();
+        start.v = RowCoordinates { x1: v1, x2: v2, x3: v3 };
+        let mut run =
+            Adaptive::builder(row).from_state(start).scheme::<Dop853>().tolerances(TIGHT).build()?;
+        let energy = |run: &Adaptive<Row<f64>, Dop853>| run.mechanism().kinetic_energy(&run.state());
+        let sums = |run: &Adaptive<Row<f64>, Dop853>| {
+            let now = run.inputs();
+            [now.left_impulse, now.first_impulse, now.second_impulse, now.right_impulse]
+        };
+        let (mut last, mut before, mut own) = (sums(&run), energy(&run), 0);
+        let mut idle = 0;
+        while own < each && idle < 100 {
+            run.step()?;
+            let (now, after) = (sums(&run), energy(&run));
+            let hit = now.iter().zip(&last).filter(|(now, last)| now > last).count();
+            // three terms of some roundings each
+            let rounding = 64.0 * f64::EPSILON * before;
+            assert!(after <= before + rounding, "{number}: {after} J behind {before} J");
+            assert!(e < 1.0 || after >= before - rounding, "{number}: {after} J behind {before} J");
+            (last, before) = (now, after);
+            (own, at_once) = (own + u64::from(hit > 0), at_once + u64::from(hit > 1));
+            idle = if hit > 0 { 0 } else { idle + 1 };
+        }
+        impacts += own;
+    }
+    let least = if EXHAUSTIVE { 100_000 } else { 4_000 };
+    assert!(impacts >= least && at_once > impacts / 20, "{impacts} impacts, {at_once} of several stops");
+    Ok(())
+}
+
+/// Walls that close on a ball that loses nothing hit it ever more often: the run ends with a word before they meet.
+#[test]
+fn walls_that_close_end_a_run() -> Result<(), Error> {
+    let live = compiled(
+        "Walls { dof = 1; body ball (x) { mass = 1 [kg]; }
+            stop left: x >= -1 [m] + 0.5 [m/s]*t { restitution = 1; }
+            stop right: x <= 1 [m] - 0.5 [m/s]*t { restitution = 1; }
+            start { x = 0.1 [m]; der(x) = 1 [m/s]; } }",
+    );
+    let mut run = Adaptive::builder(Prepared::new(&live)).build()?;
+    let error = run.advance_to(3.0).err();
+    assert!(matches!(error, Some(Error::EndlessImpacts { t, .. }) if (1.99..2.0).contains(&t)), "{error:?}");
+    Ok(())
+}
+
+/// Energy does not grow, no gap becomes negative, no stop pulls at what rests on it, and a run ends in its time.
 #[test]
 fn random_impacts_take_energy_and_keep_gaps() {
     let mut impacts = 0;
-    let count = if EXHAUSTIVE { 800 } else { 100 };
+    let count = if EXHAUSTIVE { 400 } else { 100 };
     for number in 0..count {
         let (text, stops) = between_stops::random(number);
-        let inputs = to_a_tolerance(&compiled(&text), (TIGHT, 100), stops);
+        let inputs = to_a_tolerance(&compiled(&bearing(&text)), (TIGHT, 100), stops);
         let inputs = inputs.unwrap_or_else(|error| panic!("{number}: {error}\n{text}"));
-        impacts += inputs.chunks(2).take(stops).filter(|stop| stop[1] > 0.0).count() as u64;
+        impacts += inputs.chunks(3).take(stops).filter(|stop| stop[1] > 0.0).count() as u64;
     }
     assert!(impacts > count / 2, "{impacts} stops are hit");
 }
 
 /// With constant steps, whose impacts are known to a step: energy grows by no more than gravity and springs give within
-/// a step, and gaps are short of 0 by no more than a step of motion.
+/// a step, gaps are short of 0 by no more than a step of motion, and no stop pulls.
 #[test]
 fn random_impacts_of_constant_steps_take_energy_and_keep_gaps() {
     let (mut impacts, mut rests) = (0, 0);
-    let count = if EXHAUSTIVE { 125 } else { 50 };
+    let count = if EXHAUSTIVE { 80 } else { 40 };
     for number in 0..count {
         let (text, stops) = between_stops::random(number);
-        let inputs = in_constant_steps(&compiled(&text), 200, stops);
+        let inputs = in_constant_steps(&compiled(&bearing(&text)), 200, stops);
         let inputs = inputs.unwrap_or_else(|error| panic!("{number}: {error}\n{text}"));
-        impacts += inputs.chunks(2).take(stops).filter(|stop| stop[1] > 0.0).count() as u64;
-        rests += inputs.chunks(2).take(stops).filter(|stop| stop[0] > 0.0).count() as u64;
+        impacts += inputs.chunks(3).take(stops).filter(|stop| stop[1] > 0.0).count() as u64;
+        rests += inputs.chunks(3).take(stops).filter(|stop| stop[0] > 0.0).count() as u64;
     }
     assert!(impacts > count / 2 && rests > count / 5, "{impacts} stops are hit, {rests} rested on");
 }
@@ -86,11 +167,11 @@ fn random_impacts_of_constant_steps_take_energy_and_keep_gaps() {
 fn random_friction_at_stops_takes_energy() {
     // bodies that fly are integrated exactly, however far they turn in a step
     let tolerances = Tolerances { max_step: 0.02, ..TIGHT };
-    let count = if EXHAUSTIVE { 60 } else { 20 };
+    let count = if EXHAUSTIVE { 40 } else { 20 };
     let mut failures = Vec::new();
     for number in 0..count {
         let (text, stops) = thrown::random(number);
-        let live = compiled(&text);
+        let live = compiled(&bearing(&text));
         if let Err(error) = to_a_tolerance(&live, (tolerances, 150), stops) {
             failures.push(format!("{number} to a tolerance: {error}"));
         }
@@ -123,8 +204,9 @@ fn in_constant_steps(live: &Live, samples: u64, stops: usize) -> Looked {
     looked_at(&mut Run::builder(live, STEP).build()?, [samples, 100], stops, allowed)
 }
 
-/// Looks at a run every so many steps: energy grows, and gaps, which are its outputs, are below 0, by no more than is allowed beside
-/// the kinetic energy, the energy and the largest speed. The inputs at the end.
+/// Looks at a run every so many steps: energy grows, and gaps, which are its first outputs, are below 0, by no more than is
+/// allowed beside the kinetic energy, the energy and the largest speed; forces of stops, its other outputs, are so by no more
+/// than the rounding of forces of some 300 N in systems with pivots of 1e-4. The inputs at the end.
 fn looked_at(
     run: &mut dyn System,
     [samples, steps]: [u64; 2],
@@ -147,9 +229,17 @@ fn looked_at(
             return Err(format!("{energy} after {last} J at {} s", at.t).into());
         }
         last = last.min(energy);
-        let (mut a, mut multipliers, mut gaps) = (vec![0.0; n], vec![0.0; m], vec![0.0; stops]);
+        let (mut a, mut multipliers, mut gaps) = (vec![0.0; n], vec![0.0; m], vec![0.0; 2 * stops]);
         run.reactions(&mut a, &mut multipliers)?;
         run.outputs(&a, &multipliers, &mut gaps)?;
+        let forces = gaps.split_off(stops);
+        if !forces.iter().all(|force| *force > -1e-9) {
+            return Err(format!("forces {forces:?} at {} s", at.t).into());
+        }
+        // what bears is touched
+        if forces.iter().zip(&gaps).any(|(force, gap)| *force > 0.0 && *gap > short) {
+            return Err(format!("forces {forces:?} across gaps {gaps:?} at {} s", at.t).into());
+        }
         if !gaps.iter().all(|gap| *gap > -short) {
             return Err(format!("{gaps:?} at {} s", at.t).into());
         }
@@ -163,7 +253,7 @@ fn looked_at(
 /// never hold with more. To a tolerance and with constant steps.
 #[test]
 fn random_modes_take_energy_and_hold() {
-    let count = if EXHAUSTIVE { 100 } else { 60 };
+    let count = if EXHAUSTIVE { 80 } else { 40 };
     let mut held = 0;
     for number in 0..count {
         let (text, stops) = between_stops::random(number);

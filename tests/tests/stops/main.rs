@@ -2,6 +2,7 @@
 //! `tests/long`.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
+mod bearing;
 mod bristles;
 mod by_forces;
 mod contact;

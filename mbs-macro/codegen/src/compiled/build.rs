@@ -97,7 +97,7 @@ fn places(model: &Model) -> Vec<usize> {
 
 fn stop_of(model: &Model, stop: &model::Stop) -> Stop {
     let formula = readable(&model.arena, stop.contact.gap);
-    Stop { quantity: stop.quantity.clone(), memory: stop.memory, formula, span: stop.span }
+    Stop { quantity: stop.quantity.clone(), memory: stop.memory, force: stop.force, formula, span: stop.span }
 }
 
 fn friction_of(model: &Model, friction: &model::Friction) -> Friction {

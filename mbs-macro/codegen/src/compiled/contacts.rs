@@ -10,6 +10,8 @@ pub struct Stop {
     pub quantity: Quantity,
     /// The place among the inputs of the memory that is 1 while it is rested on; that of its impulse is behind it.
     pub memory: usize,
+    /// That of the memory of its force, if something asks for it.
+    pub force: Option<usize>,
     /// The gap, unless it is too long to read.
     pub formula: String,
     /// Where it is declared.
@@ -84,6 +86,19 @@ impl Compiled {
         let frictions = self.frictions.iter().map(|friction| friction.memory);
         let modes = self.locks.iter().map(|lock| lock.mode);
         self.stops.iter().map(|stop| stop.memory).chain(frictions).chain(modes)
+    }
+
+    /// The contacts whose forces have a memory of their own, with its place: stops that are asked for theirs, and the
+    /// constraints of modes.
+    pub fn noted(&self) -> impl Iterator<Item = [usize; 2]> {
+        let stops = self.stops.iter().enumerate().filter_map(|(row, stop)| Some([row, stop.force?]));
+        let locks = (self.stops.len() + self.frictions.len()..).zip(&self.locks);
+        stops.chain(locks.map(|(row, lock)| [row, lock.held]))
+    }
+
+    /// True if memories have forces that a run finds: of frictions that stick, of stops, or of constraints of modes.
+    pub fn holds(&self) -> bool {
+        !self.frictions.is_empty() || self.noted().next().is_some()
     }
 
     /// The number of stops, of frictions that stick and of constraints of modes.

@@ -82,7 +82,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// A second one of the same name is refused when it is resolved.
-    fn declare_source(&mut self, name: &Ident, word: &'static str, ends: Option<[Attachment; 2]>) {
+    pub(super) fn declare_source(&mut self, name: &Ident, word: &'static str, ends: Option<[Attachment; 2]>) {
         let source = Source { word, span: name.span(), ends, work: Vec::new(), exerts: None };
         self.scope.sources.entry(name.to_string()).or_insert(source);
     }

@@ -110,7 +110,7 @@ impl Resolver<'_> {
             return;
         }
         let contact = self.contact(slip);
-        let told = if stop.is_some() { &of(name, "friction") } else { name };
+        let told = if stop.is_some() { &memory_of(name, "friction") } else { name };
         let quantity = quantity(told, "", "", Unit::ONE);
         self.frictions.push(Friction { quantity, contact, limits, memory, stop, span: name.span() });
     }
@@ -195,14 +195,15 @@ impl Resolver<'_> {
 
 /// The names of the memories of friction that sticks.
 fn memories_of(name: &Ident) -> [Ident; 2] {
-    ["direction", "held"].map(|what| of(name, what))
+    ["direction", "held"].map(|what| memory_of(name, what))
 }
 
 /// The name of the own state of friction by bristles.
 fn bristle_of(name: &Ident) -> Ident {
-    of(name, "bristle")
+    memory_of(name, "bristle")
 }
 
-fn of(name: &Ident, what: &str) -> Ident {
+/// The name of a memory, or a state, that something has by its own name.
+pub(super) fn memory_of(name: &Ident, what: &str) -> Ident {
     Ident::new(&format!("{}_{what}", name.to_string().trim_start_matches("r#")), name.span())
 }

@@ -218,8 +218,9 @@ impl Scope<'_> {
                     "the size of its force is `reaction({text})`; one multiplier is `lambda({first})`"
                 )));
             }
-            if let Some(error) = self.force_of_stop(&row) {
-                return Err(error);
+            if self.stops.contains_key(&text) {
+                return Err(Diagnostic::new(row.span(), format!("`{text}` is a stop, not a constraint"))
+                    .help(format!("the force with which it bears what rests on it is `force({text})`")));
             }
             let error = Diagnostic::new(row.span(), format!("there is no constraint `{text}`"));
             return Err(match nearest(&text, self.rows.keys().map(String::as_str)) {
@@ -244,7 +245,7 @@ impl Scope<'_> {
             )
             .help(match known.position {
                 Some(_) => place.rule(),
-                None => "a run finds the forces of a mode behind all others: ask for them in an `output` or a `when`",
+                None => "a run finds the forces of a mode behind all others: ask for them in an `output` or in the condition of a `when`",
             }));
         }
         if known.is_broken {

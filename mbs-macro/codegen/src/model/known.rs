@@ -131,6 +131,16 @@ pub enum Curve {
     },
 }
 
+/// A stop.
+#[derive(Clone, Copy)]
+pub struct KnownStop {
+    pub impulse: Symbol,
+    /// Nothing where no output and no condition asks for it.
+    pub force: Option<Symbol>,
+    /// That of its force, once its gap is read.
+    pub dimension: Option<Dimension>,
+}
+
 /// A constraint or a drive.
 pub struct Row {
     /// Its place among the constraints; nothing of a row of a mode.

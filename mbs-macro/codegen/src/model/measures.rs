@@ -7,10 +7,8 @@ use mbs_symbolic::Algebra;
 use mbs_symbolic::units::Dimension;
 use proc_macro2::Ident;
 
-use super::Meaning;
-use super::known::{Source, Typed, Value};
+use super::known::{Source, Typed};
 use super::names::{Place, Scope};
-use super::stops::impulse_of;
 use crate::diagnostics::{Diagnostic, Diagnostics, listing, nearest};
 use crate::mechanics::norm;
 use crate::syntax::{Attachment, EnergyRole, Formula, FormulaKind};
@@ -19,6 +17,7 @@ use crate::syntax::{Attachment, EnergyRole, Formula, FormulaKind};
 pub const MEASURES: &[&str] = &[
     "force",
     "torque",
+    "impulse",
     "length",
     "power",
     "kinetic_energy",
@@ -28,8 +27,12 @@ pub const MEASURES: &[&str] = &[
     "speed",
 ];
 
+/// Those of them that a stop has.
+const OF_STOPS: [&str; 3] = ["force", "torque", "impulse"];
+
 pub(super) const FORCE: Dimension = Dimension::of(1, 1, -2);
 pub(super) const ENERGY: Dimension = Dimension::of(1, 2, -2);
+pub(super) const TIME: Dimension = Dimension::of(0, 0, 1);
 
 impl Scope<'_> {
     pub(super) fn measure(
@@ -40,6 +43,12 @@ impl Scope<'_> {
         errors: &mut Diagnostics,
     ) -> Option<Typed> {
         let result = match (name.to_string().as_str(), arguments) {
+            (text, [Formula { kind: FormulaKind::Name(stop), .. }])
+                if OF_STOPS.contains(&text) && self.stops.contains_key(&stop.to_string()) =>
+            {
+                self.of_stop(name, stop, place)
+            }
+            ("impulse", [of]) => Err(self.no_impulse(name, of)),
             ("kinetic_energy" | "potential_energy", []) => self.energy(name),
             ("kinetic_energy" | "potential_energy", _) => {
                 Err(Diagnostic::new(name.span(), format!("`{name}` takes no argument"))
@@ -95,24 +104,39 @@ impl Scope<'_> {
         Ok(Typed { expr, dimension: Some(Dimension::of(1, 2, -3)) })
     }
 
-    /// The error where the force of a stop is asked for; nothing for the name of something else.
-    pub(super) fn force_of_stop(&self, asked: &Ident) -> Option<Diagnostic> {
-        let impulse = impulse_of(asked);
-        let memory = |name: &Ident| match self.values.get(&name.to_string()) {
-            Some(Value::Symbol { symbol, .. }) => match self.meaning(*symbol) {
-                Meaning::Input(at) => at.checked_sub(self.first_memory),
-                _ => None,
-            },
-            _ => None,
+    /// `force(floor)`, `torque(end)`: that with which a stop bears what rests on it; `impulse(floor)`: the sum of those of its
+    /// impacts.
+    fn of_stop(&mut self, function: &Ident, asked: &Ident, place: Place) -> Result<Typed, Diagnostic> {
+        let Some(stop) = self.stops.get(&asked.to_string()).copied() else {
+            return Err(unknown(asked, "stop", self.stops.keys()));
         };
-        let is_stop = memory(asked).is_some_and(|at| memory(&impulse) == Some(at + 1));
-        is_stop.then(|| {
-            let help = format!(
-                "`{asked}` is 1 while it is rested on, and `{impulse}` the sum of the impulses of its impacts; where a force is \
-                 needed, take a stiff end: `force end on x = -k*ramp(x - gap);`"
-            );
-            Diagnostic::new(asked.span(), format!("`{asked}` is a stop, whose force has no value")).help(help)
-        })
+        if function == "impulse" {
+            let expr = self.arena.variable(stop.impulse);
+            return Ok(Typed { expr, dimension: stop.dimension.map(|force| force.times(TIME)) });
+        }
+        let Some(force) = stop.force.filter(|_| place == Place::Anywhere) else {
+            return Err(Diagnostic::new(function.span(), format!("the force of `{asked}` cannot stand here"))
+                .help("a run finds the forces of stops behind all others: ask for them in an `output` or in the condition of a `when`"));
+        };
+        let wanted = if stop.dimension == Some(ENERGY) { "torque" } else { "force" };
+        if function != wanted {
+            return Err(exerts_another(asked, wanted));
+        }
+        Ok(Typed { expr: self.arena.variable(force), dimension: stop.dimension })
+    }
+
+    /// The error where the impulse of something else than a stop that hits is asked for.
+    fn no_impulse(&self, name: &Ident, of: &Formula) -> Diagnostic {
+        let asked = match name_of(name, of) {
+            Ok(asked) => asked,
+            Err(error) => return error,
+        };
+        if self.sources.get(&asked.to_string()).is_some_and(|source| source.word == "stop") {
+            let message = format!("`{asked}` gives way, and has no impulses");
+            return Diagnostic::new(asked.span(), message)
+                .help(format!("what it pushes with is `force({asked})`"));
+        }
+        unknown(asked, "stop", self.stops.keys())
     }
 
     /// `force(s)`, `torque(m)`: the scalar that an element exerts.
@@ -121,18 +145,14 @@ impl Scope<'_> {
         let asked = name_of(name, of)?;
         let text = asked.to_string();
         let Some(source) = self.sources.get(&text) else {
-            let error = || unknown(asked, "force or element", self.sources.keys());
-            return Err(self.force_of_stop(asked).unwrap_or_else(error));
+            let known = self.sources.keys().chain(self.stops.keys());
+            return Err(unknown(asked, "force, element or stop", known));
         };
         match source.exerts {
             Some(exerts) if exerts.dimension == wanted => {
                 Ok(Typed { expr: exerts.value, dimension: Some(wanted) })
             }
-            Some(_) => {
-                let (is, function) = if wanted == FORCE { ("torque", "torque") } else { ("force", "force") };
-                Err(Diagnostic::new(asked.span(), format!("`{text}` exerts a {is}"))
-                    .help(format!("write `{function}({text})`")))
-            }
+            Some(_) => Err(exerts_another(asked, if wanted == FORCE { "torque" } else { "force" })),
             // broken elsewhere, or a vector
             None if source.work.is_empty() => Ok(Typed { expr: self.arena.zero(), dimension: None }),
             None if EnergyRole::WORDS.contains(&source.word) => {
@@ -246,10 +266,16 @@ pub(super) fn wrong_arguments(name: &Ident, text: &str) -> Diagnostic {
         "transmission_angle" => ("two bodies", "transmission_angle(rod, rocker)"),
         "speed" => ("a body or a point of one", "speed(rod.tip)"),
         "length" => ("the name of a spring", "length(s)"),
+        "impulse" => ("the name of a stop", "impulse(floor)"),
         "power" => ("the name of a force, an element or a drive", "power(motor)"),
         _ => ("the name of an element", "force(s)"),
     };
     Diagnostic::new(name.span(), format!("`{name}` takes {takes}")).help(format!("as in `{example}`"))
+}
+
+/// The error where the other one of `force` and `torque` is meant.
+fn exerts_another(asked: &Ident, is: &str) -> Diagnostic {
+    Diagnostic::new(asked.span(), format!("`{asked}` exerts a {is}")).help(format!("write `{is}({asked})`"))
 }
 
 pub(super) fn unknown<'n>(name: &Ident, what: &str, known: impl Iterator<Item = &'n String>) -> Diagnostic {

@@ -31,10 +31,12 @@ mod resolver;
 mod samples;
 mod settings;
 mod sketch;
+mod soft_stops;
 mod solver;
 mod starts;
 mod statements;
 mod states;
+mod stop_properties;
 mod stops;
 mod surfaces;
 mod tables;
@@ -378,6 +380,8 @@ pub struct Stop {
     pub settle: Expr,
     /// The place among the inputs of the memory that is 1 while it is rested on; that of its impulse is behind it.
     pub memory: usize,
+    /// That of the memory of its force, if it is asked for.
+    pub force: Option<usize>,
     pub span: Span,
 }
 

@@ -9,12 +9,13 @@
 use std::collections::BTreeSet;
 
 use mbs_symbolic::units::{Dimension, Unit};
-use mbs_symbolic::{Algebra, Expr, Stage, Symbol};
+use mbs_symbolic::{Algebra, Expr, Node, Stage, Symbol};
 use proc_macro2::Ident;
 
 use super::declare::quantity;
+use super::frictions::memory_of;
 use super::known::{Row, Value};
-use super::names::Place;
+use super::names::{Place, Scope};
 use super::resolver::Resolver;
 use super::{Constraint, Contact, Lock, Meaning, Mode, Transition};
 use crate::diagnostics::{Diagnostic, described, listing, nearest};
@@ -42,7 +43,7 @@ impl Resolver<'_> {
         let memory = self.inputs.len();
         let text = format!("lambda({name})");
         let multiplier = self.scope.symbol(&text, Stage::Variable, Meaning::Input(memory));
-        let held = held_of(name);
+        let held = memory_of(name, "held");
         let doc = "the multiplier of a constraint while its mode holds";
         self.inputs.push(Setting { quantity: quantity(&held, doc, "", Unit::ONE), value: 0.0 });
         let (dimension, phi, rate, is_broken) = (None, None, None, false);
@@ -162,6 +163,17 @@ impl Resolver<'_> {
                 "write it in positions, velocities, forces, inputs or time, as in `when x < 0 [m] { … }`";
             return refuse("this never begins to hold: nothing that changes is left in it", help);
         }
+        let sides = match condition.comparison {
+            Comparison::Less | Comparison::LessOrEqual => [left.expr, right.expr],
+            Comparison::Greater | Comparison::GreaterOrEqual => [right.expr, left.expr],
+        };
+        if let Some(stop) = bearing(&self.scope, sides) {
+            let help = format!("what leaves it is found by `when {stop} < 0.5 {{ … }}`");
+            return refuse(
+                &format!("this never begins to hold: the force of `{stop}` is never below 0"),
+                &help,
+            );
+        }
         if when.sets.is_empty() {
             let help =
                 "enter or leave a mode in it, or give a memory a value: `when x < 0 [m] { enter latched; }`";
@@ -185,12 +197,13 @@ impl Resolver<'_> {
         self.transitions.push(transition);
     }
 
-    /// True of what a run solves for: accelerations, multipliers, and the forces with which frictions and modes hold.
+    /// True of what a run solves for: accelerations, multipliers, and the forces of stops, frictions that stick and modes.
     fn is_of_forces(&self, meaning: Meaning) -> bool {
         match meaning {
             Meaning::Acceleration(_) | Meaning::Multiplier(_) => true,
             Meaning::Input(memory) => {
                 self.locks.iter().any(|lock| lock.held == memory)
+                    || self.stops.iter().any(|stop| stop.force == Some(memory))
                     || self.frictions.iter().any(|friction| friction.memory + 1 == memory)
             }
             _ => false,
@@ -240,7 +253,10 @@ impl Resolver<'_> {
     }
 }
 
-/// The name of the memory of a multiplier.
-fn held_of(name: &Ident) -> Ident {
-    Ident::new(&format!("{}_held", name.to_string().trim_start_matches("r#")), name.span())
+/// The stop whose force is to be less than 0.
+fn bearing(scope: &Scope<'_>, [smaller, larger]: [Expr; 2]) -> Option<String> {
+    let is_force =
+        |force: Symbol| matches!(scope.arena.node(smaller), Node::Symbol(symbol) if *symbol == force);
+    let mut stops = scope.stops.iter().filter(|(_, stop)| stop.force.is_some_and(is_force));
+    stops.next().filter(|_| scope.arena.is_zero(larger)).map(|(name, _)| name.clone())
 }

@@ -7,7 +7,7 @@ use proc_macro2::{Ident, Span};
 
 use super::Meaning;
 use super::Requirement;
-use super::known::{Energies, Frame, GROUND, KnownJoint, Row, Source, Table, Typed, Value};
+use super::known::{Energies, Frame, GROUND, KnownJoint, KnownStop, Row, Source, Table, Typed, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::mechanics::Motion;
 use crate::syntax::Attachment;
@@ -117,6 +117,7 @@ pub struct Scope<'a> {
     pub joints: BTreeMap<String, KnownJoint>,
     /// Named forces, torques and elements.
     pub sources: BTreeMap<String, Source>,
+    pub stops: BTreeMap<String, KnownStop>,
     /// Known once all forces are.
     pub energies: Option<Energies>,
     pub time: Symbol,
@@ -148,6 +149,7 @@ impl<'a> Scope<'a> {
             rows: BTreeMap::new(),
             joints: BTreeMap::new(),
             sources: BTreeMap::new(),
+            stops: BTreeMap::new(),
             energies: None,
             time,
             locals: Vec::new(),

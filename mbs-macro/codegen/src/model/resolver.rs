@@ -31,6 +31,7 @@ pub fn resolve(declaration: &Declaration) -> Result<Model, Diagnostics> {
     let mut resolver = Resolver::new(declaration);
     // Names first, so that statements may stand in any order.
     resolver.each(declaration, Resolver::declare);
+    resolver.each(declaration, Resolver::find_asked);
     resolver.each(declaration, Resolver::declare_memory);
     resolver.each(declaration, Resolver::declare_rows);
     resolver.each(declaration, Resolver::resolve_value);
@@ -99,6 +100,8 @@ pub(super) struct Resolver<'a> {
     pub output_names: HashMap<String, Span>,
     pub events: Vec<Event>,
     pub stops: Vec<Stop>,
+    /// The names of all whose force something asks for.
+    pub asked: BTreeSet<String>,
     pub frictions: Vec<Friction>,
     pub modes: Vec<Mode>,
     /// The modes of joints and constraints, by their names.
@@ -150,6 +153,7 @@ impl<'a> Resolver<'a> {
             output_names: HashMap::default(),
             events: Vec::new(),
             stops: Vec::new(),
+            asked: BTreeSet::new(),
             frictions: Vec::new(),
             modes: Vec::new(),
             rows_of_modes: HashMap::default(),

@@ -52,20 +52,38 @@ impl Formula {
     /// The plain names in it.
     pub fn names(&self) -> Vec<&Ident> {
         match &self.kind {
-            FormulaKind::Number { .. } | FormulaKind::Member(_) => Vec::new(),
             FormulaKind::Name(name) => vec![name],
+            _ => self.parts().into_iter().flat_map(Self::names).collect(),
+        }
+    }
+
+    /// The calls in it whose one argument is a name, with that.
+    pub fn calls_of_names(&self) -> Vec<[&Ident; 2]> {
+        let inner = self.parts().into_iter().flat_map(Self::calls_of_names);
+        let own = match &self.kind {
+            FormulaKind::Call { function, arguments } => match &arguments[..] {
+                [Self { kind: FormulaKind::Name(name), .. }] => Some([function, name]),
+                _ => None,
+            },
+            _ => None,
+        };
+        own.into_iter().chain(inner).collect()
+    }
+
+    /// The formulas that it is made of.
+    fn parts(&self) -> Vec<&Self> {
+        match &self.kind {
+            FormulaKind::Number { .. } | FormulaKind::Member(_) | FormulaKind::Name(_) => Vec::new(),
             FormulaKind::Negative(inner)
             | FormulaKind::Component { call: inner, .. }
-            | FormulaKind::WithUnit { inner, .. } => inner.names(),
+            | FormulaKind::WithUnit { inner, .. } => vec![inner],
             FormulaKind::Chain { first, rest } => {
-                let rest = rest.iter().flat_map(|operation| operation.operand.names());
-                first.names().into_iter().chain(rest).collect()
+                std::iter::once(&**first).chain(rest.iter().map(|operation| &operation.operand)).collect()
             }
-            FormulaKind::Power { base, exponent, .. } => [base.names(), exponent.names()].concat(),
-            FormulaKind::Call { arguments, .. } => arguments.iter().flat_map(Self::names).collect(),
+            FormulaKind::Power { base, exponent, .. } => vec![base, exponent],
+            FormulaKind::Call { arguments, .. } => arguments.iter().collect(),
             FormulaKind::Choice(choice) => {
-                let compared = choice.test.formulas().into_iter();
-                compared.chain([&choice.value, &choice.otherwise]).flat_map(Self::names).collect()
+                choice.test.formulas().into_iter().chain([&choice.value, &choice.otherwise]).collect()
             }
         }
     }

@@ -126,7 +126,7 @@ pub fn keywords() -> Vec<Keyword> {
 const NEIGHBOURS: &[(&[&str], &str)] = &[
     (&["hinge", "pin", "pivot", "bearing", "rotational", "revolute_joint"], "two places that coincide are a `revolute` joint: `revolute pin (crank.tip, rod.base);`"),
     (&["joint"], "a joint begins with its kind: `revolute`, `prismatic`, `fixed`, `point_on_line`, `distance`, `gear`, `belt`, `rack`, `rolling` or `cam`"),
-    (&["collision", "impact", "limit_stop", "bumper"], "bodies that touch have a `contact` between their outlines; a hard end is a `stop`: `stop end: x <= 0.2 [m] { restitution = 0.4; }`, a soft one a force: `force end on x = -k*ramp(x - gap);`, between two points a `strut`"),
+    (&["collision", "impact", "limit_stop", "bumper"], "bodies that touch have a `contact` between their outlines; a hard end is a `stop`: `stop end: x <= 0.2 [m] { restitution = 0.4; }`, a soft one has a `stiffness` and a `damping` in place of the restitution; between two points a soft end is a `strut`"),
     (&["damper", "dashpot", "shock_absorber"], "a damper is a spring without stiffness: `spring name (a.p, b.q) { damping = c; }`, or `torsion_spring` between angles"),
     (&["torsional_spring", "rotational_spring", "spiral_spring"], "a spring between angles is a `torsion_spring`"),
     (&["slider", "guide", "rail", "translational", "slot", "groove"], "what slides without turning is a `prismatic` joint, a pin in a slot a `pin_slot`: `prismatic name (block, ground) along (1, 0);`"),

@@ -55,10 +55,15 @@ fn runs_at_stops_have_the_bits_of_live_ones() {
     }
     let [_, smooth, rubbing] = RUN_SCRIPTS;
     let modes = |number| between_stops::switching(number, &between_stops::rubbing(number));
-    let forces = |number| between_stops::letting_go(number, &between_stops::rubbing(number));
+    let forces =
+        |number| between_stops::bearing(&between_stops::letting_go(number, &between_stops::rubbing(number)));
     let forces = (0..4).map(|number| (format!("forces {number}"), forces(number), smooth));
     let smooth = (0..4).map(|number| (format!("modes {number}"), modes(number), smooth)).chain(forces);
-    let thrown = (0..8).map(|number| (format!("thrown {number}"), thrown::random(number).0, rubbing));
+    let thrown = |number| match (thrown::random(number), number % 2) {
+        ((text, _), 0) => text,
+        ((text, _), _) => between_stops::bearing(&text),
+    };
+    let thrown = (0..8).map(|number| (format!("thrown {number}"), thrown(number), rubbing));
     let rough = rough::rough().map(|(name, text)| (name.to_owned(), text, rubbing));
     for (name, text, script) in smooth.chain(thrown).chain(rough) {
         let text = Text::declaration(name.clone(), text);

@@ -83,6 +83,7 @@ fn counts(target: &Target<'_>) -> String {
         ("STOPS", compiled.stops.len()),
         ("OWN_ROWS", compiled.contacts() - compiled.locks.len()),
         ("ROWS", compiled.contacts()),
+        ("NOTED", compiled.noted().count()),
         ("CONTACTS", compiled.length(Results::Contacts)),
     ];
     let of_transitions = [("TRANSITIONS", compiled.transitions.len())];

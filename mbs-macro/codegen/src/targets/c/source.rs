@@ -141,7 +141,7 @@ fn unsampled(compiled: &Compiled, text: &str) -> String {
 /// The functions that a run is asked with. What stops and frictions do has a part in them where there are any.
 fn results(compiled: &Compiled) -> String {
     let text = include_str!("text/results.c");
-    let holds = compiled.frictions.len() + compiled.locks.len() > 0;
+    let holds = compiled.holds();
     let lines = text.split_inclusive('\n').filter(|line| {
         (compiled.contacts() > 0 || !line.contains("NAME_press("))
             && (holds
@@ -234,11 +234,14 @@ fn tables(target: &Target<'_>) -> String {
         let declaration = "/* The first memory of every stop, behind them of every friction that sticks, and those of the \
                            modes of constraints. */\nstatic const int NAME_memories[]";
         add(declaration, places, "0");
-        let locks = compiled.locks.iter();
-        let locks = locks.map(|lock| format!("{{{}, {}}}", lock.held, u8::from(lock.is_rate))).collect();
-        let declaration = "/* The memories of the multipliers of modes, and whether their constraints are of rates. */\n\
-                           static const int NAME_locks[][2]";
-        add(declaration, locks, "{0, 0}");
+        let noted = compiled.noted().map(|[row, memory]| format!("{{{row}, {memory}}}")).collect();
+        let declaration = "/* The rows of stops and of constraints of modes whose force has a memory, and its place. */\n\
+                           static const int NAME_noted[][2]";
+        add(declaration, noted, "{0, 0}");
+        let of_rates = compiled.locks.iter().map(|lock| u8::from(lock.is_rate).to_string()).collect();
+        let declaration =
+            "/* Whether the constraints of modes are of rates. */\nstatic const int NAME_of_rates[]";
+        add(declaration, of_rates, "0");
     }
     if compiled.rubbing().next().is_some() {
         let places = compiled.rubbing_rows().map(|[row, stop]| format!("{{{row}, {stop}}}"));

@@ -52,18 +52,20 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
         }
     });
     let sampling = sampling(&compiled.sampling, runtime);
-    let stops = compiled.stops.iter().map(|Stop { quantity, memory, formula, .. }| {
+    let stops = compiled.stops.iter().map(|Stop { quantity, memory, force, formula, .. }| {
         let Quantity { name, doc, unit, dimension: of, .. } = quantity;
         let (of, memory) = (dimension(*of, runtime), Literal::usize_unsuffixed(*memory));
-        quote!(#runtime::DeclaredStop { name: #name, doc: #doc, unit: #unit, dimension: #of, memory: #memory, formula: #formula })
+        let force = option(*force);
+        quote! {
+            #runtime::DeclaredStop {
+                name: #name, doc: #doc, unit: #unit, dimension: #of, memory: #memory, force: #force, formula: #formula,
+            }
+        }
     });
     let frictions =
         compiled.frictions.iter().map(|Friction { name, memory, limits: [sliding, sticking], stop, .. }| {
             let memory = Literal::usize_unsuffixed(*memory);
-            let stop = match stop.map(Literal::usize_unsuffixed) {
-                Some(stop) => quote!(::core::option::Option::Some(#stop)),
-                None => quote!(::core::option::Option::None),
-            };
+            let stop = option(*stop);
             quote! {
                 #runtime::DeclaredFriction { name: #name, memory: #memory, limits: [#sliding, #sticking], stop: #stop }
             }
@@ -98,6 +100,14 @@ pub fn emit(compiled: &Compiled, names: &Names) -> TokenStream {
             #modes,
             &[#(#functions),*],
         )
+    }
+}
+
+/// A place, if there is one.
+fn option(place: Option<usize>) -> TokenStream {
+    match place.map(Literal::usize_unsuffixed) {
+        Some(place) => quote!(::core::option::Option::Some(#place)),
+        None => quote!(::core::option::Option::None),
     }
 }
 

@@ -45,7 +45,7 @@ pub fn tables(compiled: &Compiled) -> String {
         ("stops", array(compiled.contact_memories().map(|memory| memory.to_string()))),
         ("frictions", compiled.frictions.len().to_string()),
         ("rubbing", array(compiled.rubbing_rows().map(|[row, stop]| format!("[{row},{stop}]")))),
-        ("multipliers", array(compiled.locks.iter().map(|lock| lock.held.to_string()))),
+        ("noted", array(compiled.noted().map(|[row, memory]| format!("[{row},{memory}]")))),
         ("ofRates", array(compiled.locks.iter().map(|lock| lock.is_rate.to_string()))),
         ("transitions", array(compiled.transitions.iter().map(transition))),
         ("contacts", compiled.length(Results::Contacts).to_string()),

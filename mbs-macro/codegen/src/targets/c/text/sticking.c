@@ -29,15 +29,17 @@ static int NAME_find_locked(const struct NAME_run *run, int *locked)
 /* True of constraints of modes that restrict no position. */
 static int NAME_is_of_rates(int row)
 {
-    return row >= CAPS_OWN_ROWS && NAME_locks[row - CAPS_OWN_ROWS][1];
+    return row >= CAPS_OWN_ROWS && NAME_of_rates[row - CAPS_OWN_ROWS];
 }
 
-/* Sets the memories of the multipliers of the constraints of modes that hold. */
-static void NAME_note_multipliers(struct NAME_run *run, const int *held, const real *forces)
+/* Sets the memories of the forces of stops and of the multipliers of modes, those of what holds to theirs and the others to
+   0. */
+static void NAME_note_forces(struct NAME_run *run, const int *held, const real *forces)
 {
-    for (int row = CAPS_OWN_ROWS; row < CAPS_ROWS; row++) {
-        const real multiplier = held[row] ? -forces[row] : 0;
-        NAME_places(&run->inputs)[NAME_locks[row - CAPS_OWN_ROWS][0]] = multiplier;
+    for (int at = 0; at < CAPS_NOTED; at++) {
+        const int row = NAME_noted[at][0];
+        const real force = row < CAPS_STOPS ? forces[row] : -forces[row];
+        NAME_places(&run->inputs)[NAME_noted[at][1]] = held[row] ? force : 0;
     }
 }
 
@@ -195,7 +197,7 @@ RUBS             if (rubbing[row]) {
 RUBS                 NAME_set_friction(run, row, struck.directions[row], struck.held[row] ? forces[row] : 0);
 RUBS             }
         }
-        NAME_note_multipliers(run, locked, forces);
+        NAME_note_forces(run, set, forces);
         return CAPS_OK;
     }
 SMOOTH     return NAME_unanswered(run, still);
@@ -210,10 +212,10 @@ static void NAME_let_go(struct NAME_run *run)
     for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         NAME_set_friction(run, row, NAME_direction(run, row), 0);
     }
-    NAME_note_multipliers(run, none, forces);
+    NAME_note_forces(run, none, forces);
 }
 
-/* Sets the memories of the forces with which frictions stick and modes hold; gives the accelerations and multipliers there. */
+/* Sets the memories of the forces of stops, frictions that stick and modes; gives the accelerations and multipliers there. */
 static void NAME_measure(struct NAME_run *run, struct NAME_reactions *reactions)
 {
     const struct NAME_state *const at = &run->state;
@@ -234,7 +236,7 @@ static void NAME_measure(struct NAME_run *run, struct NAME_reactions *reactions)
             NAME_set_friction(run, row, 0, forces[row]);
         }
     }
-    NAME_note_multipliers(run, held, forces);
+    NAME_note_forces(run, held, forces);
 }
 
 /* The same without these. */
@@ -243,8 +245,11 @@ static void NAME_hold(struct NAME_run *run)
     struct NAME_reactions reactions = {0};
     int held[CAPS_ROWS], is_held = 0;
     NAME_find_held(run, held);
-    for (int row = CAPS_STOPS; row < CAPS_ROWS; row++) {
+    for (int row = CAPS_STOPS; row < CAPS_OWN_ROWS; row++) {
         is_held = is_held || held[row];
+    }
+    for (int at = 0; at < CAPS_NOTED; at++) {
+        is_held = is_held || held[NAME_noted[at][0]];
     }
     if (is_held) {
         NAME_measure(run, &reactions);

@@ -72,7 +72,7 @@ class Mechanism {
       q: n, v: n, delta: n, reactions: n + m, phi: m, phiDot: m, phiT: m, residual: m, none: m, unread: m,
       entries: t.jacobian.length, mass: n, points: 2 * t.points, outputs: t.outputs.length,
       pivots: t.pivots.length, startPivots: t.startPivots.length, gains: 2, moved: n + m, still: n,
-      clockTimes: 2 * t.clocks, gaps: 3 * t.stops.length, stopLaws: 2 * (t.stops.length - t.multipliers.length - t.frictions) + t.rubbing.length, limits: 2 * t.frictions, contacts: t.contacts,
+      clockTimes: 2 * t.clocks, gaps: 3 * t.stops.length, stopLaws: 2 * (t.stops.length - t.ofRates.length - t.frictions) + t.rubbing.length, limits: 2 * t.frictions, contacts: t.contacts,
       unmoved: n + m, sampled: t.samples.length, transitions: t.transitions.length, feedback: m, nextQ: s, nextV: s, trialQ: n, trialV: n, solution: n,
     };
     for (let at = 0; at <= t.scheme.share.length; at++) {

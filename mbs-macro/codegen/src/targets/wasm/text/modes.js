@@ -2,13 +2,13 @@
 class Modes extends Sticking {
   // True of constraints of modes, which stand behind stops and frictions.
   isLock(row) {
-    return row >= this.tables.stops.length - this.tables.multipliers.length;
+    return row >= this.tables.stops.length - this.tables.ofRates.length;
   }
 
   // True of constraints of modes that restrict no position.
   isOfRates(row) {
-    const { stops, multipliers, ofRates } = this.tables;
-    return this.isLock(row) && ofRates[row - (stops.length - multipliers.length)];
+    const { stops, ofRates } = this.tables;
+    return this.isLock(row) && ofRates[row - (stops.length - ofRates.length)];
   }
 
   // The constraints of the modes that hold.
@@ -16,12 +16,11 @@ class Modes extends Sticking {
     return this.held().map((it, row) => it && this.isLock(row));
   }
 
-  // Sets the memories of the multipliers of the constraints that hold.
-  noteMultipliers(held, forces) {
-    const { multipliers, stops } = this.tables;
-    multipliers.forEach((memory, at) => {
-      const row = stops.length - multipliers.length + at;
-      this.inputs[memory] = held[row] ? -forces[row] : 0;
+  // Sets the memories of the forces of stops and of the multipliers of modes, those of what holds to theirs and the others to 0.
+  noteForces(held, forces) {
+    this.tables.noted.forEach(([row, memory]) => {
+      const force = this.isStop(row) ? forces[row] : -forces[row];
+      this.inputs[memory] = held[row] ? force : 0;
     });
   }
 

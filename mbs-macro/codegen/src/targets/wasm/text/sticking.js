@@ -23,7 +23,7 @@ class Sticking extends AtContacts {
 
   // The size of every friction while it slides, and the largest one with which it sticks.
   limits(reactions) {
-    const m = this.mechanism, stops = this.tables.stops.length - this.tables.multipliers.length - this.tables.frictions;
+    const m = this.mechanism, stops = this.tables.stops.length - this.tables.ofRates.length - this.tables.frictions;
     m.call("limits", this.t, this.q, this.v, this.inputs, reactions, m.limits);
     return this.each((row) => (row < stops || this.isLock(row) ? {} : { sliding: m.limits[2 * (row - stops)], most: m.limits[2 * (row - stops) + 1] }));
   }
@@ -61,7 +61,7 @@ class Sticking extends AtContacts {
       this.addResponses(forces, 0, m.reactions.subarray(0, n));
       this.addResponses(forces, n, m.reactions.subarray(n));
       if (!rows.length) {
-        this.noteHeld(rubbing, struck, locked);
+        this.noteHeld(rubbing, struck, resting.map((it, row) => it || bound[row]));
         return forces;
       }
       const most = this.limits(m.reactions).map((limit) => limit.most);
@@ -84,7 +84,7 @@ class Sticking extends AtContacts {
       });
       if (turned === undefined) {
         rows.filter((row) => sticking[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
-        this.noteHeld(rubbing, struck, locked);
+        this.noteHeld(rubbing, struck, resting.map((it, row) => it || bound[row]));
         return forces;
       }
       sticking[turned] = true;
@@ -92,10 +92,10 @@ class Sticking extends AtContacts {
     return this.failAtStop("JAMMED", free.indexOf(true));
   }
 
-  // Sets the memories of what rubs on stops, and of the multipliers of modes.
-  noteHeld(rubbing, { impulses, held, directions }, locked) {
+  // Sets the memories of what rubs on stops, and of the forces of stops and modes.
+  noteHeld(rubbing, { impulses, held, directions }, set) {
     rubbing.forEach((it, row) => { if (it) this.setFriction(row, directions[row], held[row] ? impulses[row] : 0); });
-    this.noteMultipliers(locked, impulses);
+    this.noteForces(set, impulses);
   }
 
   // The first friction of a set that holds nothing, whatever its force: on what a drive moves, and at dead centres.
@@ -107,16 +107,17 @@ class Sticking extends AtContacts {
     });
   }
 
-  // Sets the memories of the forces with which frictions stick.
+  // Sets the memories of the forces of stops, frictions that stick and modes.
   hold() {
-    if (this.held().some((it, row) => it && !this.isStop(row))) this.measure();
+    const held = this.held(), isNoted = this.tables.noted.some(([row]) => held[row]);
+    if (isNoted || this.frictions().some((row) => held[row])) this.measure();
     else this.letGo();
   }
 
   // Sets the memories of all forces that hold to 0.
   letGo() {
     this.frictions().forEach((row) => this.setFriction(row, this.direction(row), 0));
-    this.noteMultipliers(this.each(() => false), []);
+    this.noteForces(this.each(() => false), []);
   }
 
   // The same as `hold`, with the accelerations and multipliers there.
@@ -127,7 +128,7 @@ class Sticking extends AtContacts {
     if (!held.includes(true)) return;
     const { forces } = this.pressWith(held, m.reactions);
     this.frictions().filter((row) => held[row]).forEach((row) => this.setFriction(row, 0, forces[row]));
-    this.noteMultipliers(held, forces);
+    this.noteForces(held, forces);
   }
 
   // Sets the directions of the frictions that move at a start; those that do not.
@@ -193,7 +194,7 @@ class Sticking extends AtContacts {
   halt(pushed, before) {
     const m = this.mechanism, n = this.q.length, rows = this.freeFrictions(), locked = this.locked();
     if (!rows.length && !locked.includes(true)) {
-      if (this.frictions().length) this.hold();
+      if (this.frictions().length || this.tables.noted.length) this.hold();
       return;
     }
     const gaps = this.gapsAt(this.t, this.q, this.v, m.unmoved), now = gaps.map(({ rate }) => rate), ends = now.slice();

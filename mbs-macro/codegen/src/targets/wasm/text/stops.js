@@ -7,7 +7,7 @@ class AtStops extends Modes {
 
   // True of stops.
   isStop(row) {
-    return row < this.tables.stops.length - this.tables.multipliers.length - this.tables.frictions;
+    return row < this.tables.stops.length - this.tables.ofRates.length - this.tables.frictions;
   }
 
   // Gap, rate and second derivative of every stop.
