@@ -149,8 +149,9 @@ impl Scope<'_> {
             return Err(unknown(asked, "force, element or stop", known));
         };
         match source.exerts {
-            Some(exerts) if exerts.dimension == wanted => {
-                Ok(Typed { expr: exerts.value, dimension: Some(wanted) })
+            // a force of another dimension is that of a gap that is neither a length nor an angle
+            Some(exerts) if (exerts.dimension == ENERGY) == (wanted == ENERGY) => {
+                Ok(Typed { expr: exerts.value, dimension: Some(exerts.dimension) })
             }
             Some(_) => Err(exerts_another(asked, if wanted == FORCE { "torque" } else { "force" })),
             // broken elsewhere, or a vector
