@@ -72,18 +72,19 @@ mechanism! {
     }
 }
 
-/// 10⁵ impacts of balls with random masses, speeds and restitutions, or 4,000 in the short run: none gives energy, and without
+/// 30,000 impacts of balls with random masses, speeds and restitutions, or 4,000 in the short run: none gives energy, and without
 /// loss it is kept, but for rounding. Every second row is symmetric, so that two stops are hit at once, or three.
 #[test]
 fn random_rows_of_balls_gain_no_energy() -> Result<(), Error> {
-    let (each, count) = if EXHAUSTIVE { (1200, 120) } else { (200, 30) };
+    let (each, count) = if EXHAUSTIVE { (600, 80) } else { (200, 30) };
     let (mut impacts, mut at_once) = (0, 0);
     for number in 0..count {
         let mut random = Random::new(number ^ 0x7777);
         let mut whole = |from: i64, to: i64| (from + random.below((to - from + 1) as usize) as i64) as f64;
         let [m1, m2, m3] = [(); 3].map(|()| whole(1, 6));
         let [v1, v2, v3] = [(); 3].map(|()| whole(-8, 8) / 4.0);
-        let e = whole(6, 8) / 8.0;
+        // what loses comes to rest behind some hundred impacts
+        let e = (whole(6, 12) / 8.0).min(1.0);
         let is_symmetric = number % 2 == 0;
         let (m3, v2, v3) = if is_symmetric { (m1, 0.0, -v1) } else { (m3, v2, v3) };
         let row = Row::new(RowParameters { m1, m2, m3, e })?;
@@ -112,7 +113,7 @@ fn random_rows_of_balls_gain_no_energy() -> Result<(), Error> {
         }
         impacts += own;
     }
-    let least = if EXHAUSTIVE { 100_000 } else { 4_000 };
+    let least = if EXHAUSTIVE { 30_000 } else { 4_000 };
     assert!(impacts >= least && at_once > impacts / 20, "{impacts} impacts, {at_once} of several stops");
     Ok(())
 }

@@ -1,4 +1,5 @@
 //! Operations that stops, modes and contacts take in a right-hand side.
+#![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
 use mbs_live::Text;
 
