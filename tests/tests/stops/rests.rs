@@ -29,7 +29,7 @@ fn a_table_that_moves_throws() -> Result<(), Error> {
 fn table_throws(e: f64, impacts: u32) -> Result<(), Error> {
     let (a, w, g) = (0.01, 20.0, 9.81);
     let table = |t: f64| (a * (w * t).sin(), a * w * (w * t).cos());
-    let shaken = Shaken::new(ShakenParameters { e, ..Default::default() })?;
+    let shaken = Shaken::new(ShakenParameters { e })?;
     let mut run = Adaptive::builder(shaken).tolerances(TIGHT).build()?;
     let (mut t, mut y, mut v, mut sum) = (0.0, 0.1, 0.0, 0.0);
     for impact in 0..impacts {

@@ -295,7 +295,7 @@ fn a_slider_with_clearance_hits_where_it_was_published() -> Result<(), Error> {
     let first = short.state().v.into_array();
     short.advance_to(now.t - 1e-9)?;
     let second = short.state().v.into_array();
-    let mut came = now.clone();
+    let mut came = now;
     came.v = ClearanceCoordinates::from_array(core::array::from_fn(|at| 2.0 * second[at] - first[at]));
     // −e of the rate; the two runs are off by their tolerance
     let off = 1e-11;
