@@ -15,7 +15,7 @@ use crate::{Info, Real, modes};
 /// The constraints of a mode are met within so many times the tolerance.
 const TOLERANCES: f64 = 100.0;
 
-/// What follows itself within this share of the longest step does so often.
+/// The share of the longest step within which things follow each other often.
 const OFTEN: f64 = 1e-6;
 
 /// When something happened last, and how often it did in close sequence.

@@ -95,7 +95,7 @@ mechanism! {
     }
 }
 
-/// What a stop of an angle bears is a torque: nothing in flight, what is left of the weight at rest, and nothing behind.
+/// A stop of an angle bears a torque: none in flight, the rest of the weight while it is rested on, and none behind.
 #[test]
 fn a_stop_of_an_angle_bears_a_torque() -> Result<(), Error> {
     let weight = 4.0 * 30.0_f64.to_radians().cos();

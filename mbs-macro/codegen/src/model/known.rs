@@ -137,7 +137,7 @@ pub struct KnownStop {
     pub impulse: Symbol,
     /// Nothing where no output and no condition asks for it.
     pub force: Option<Symbol>,
-    /// That of its force, once its gap is read.
+    /// The dimension of its force, once its gap is read.
     pub dimension: Option<Dimension>,
 }
 

@@ -168,7 +168,7 @@ impl Resolver<'_> {
             Comparison::Greater | Comparison::GreaterOrEqual => [right.expr, left.expr],
         };
         if let Some(stop) = bearing(&self.scope, sides) {
-            let help = format!("what leaves it is found by `when {stop} < 0.5 {{ … }}`");
+            let help = format!("write `when {stop} < 0.5 {{ … }}` for the moment at which it is left");
             return refuse(
                 &format!("this never begins to hold: the force of `{stop}` is never below 0"),
                 &help,

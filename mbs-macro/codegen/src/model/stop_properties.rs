@@ -27,7 +27,7 @@ pub(super) enum Takes {
     Share,
     NotNegative(fn(Dimension) -> Dimension),
     Positive(fn(Dimension) -> Dimension),
-    /// What slides.
+    /// The way that slides.
     Way,
 }
 

@@ -3,7 +3,7 @@
 use mbs_symbolic::{Arena, Expr, Function, Node, Pieces};
 use rustc_hash::FxHashMap as HashMap;
 
-/// What uses every part of some expressions.
+/// The users of every part of some expressions.
 pub struct Uses(HashMap<Expr, Vec<Expr>>);
 
 impl Uses {

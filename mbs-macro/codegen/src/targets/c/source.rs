@@ -240,7 +240,7 @@ fn tables(target: &Target<'_>) -> String {
         add(declaration, noted, "{0, 0}");
         let of_rates = compiled.locks.iter().map(|lock| u8::from(lock.is_rate).to_string()).collect();
         let declaration =
-            "/* Whether the constraints of modes are of rates. */\nstatic const int NAME_of_rates[]";
+            "/* 1 for the constraints of modes that are of rates. */\nstatic const int NAME_of_rates[]";
         add(declaration, of_rates, "0");
     }
     if compiled.rubbing().next().is_some() {
