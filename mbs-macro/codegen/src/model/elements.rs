@@ -45,14 +45,8 @@ impl Resolver<'_> {
         let algebra = Algebra::new(&mut self.scope.arena);
         (element.kind.forces)(&resolved.on(&algebra), &mut effects);
         let Effects { applied, energies, exerts, gap, sticks, state_rate, .. } = effects;
-        for applied in applied {
-            self.push_applied(&element.name, applied);
-        }
-        self.potentials.extend(energies);
+        self.push_forces(&element.name, applied, energies, exerts);
         self.gaps.extend(gap.map(|(distance, free)| Gap { distance, free, name: element.name.clone() }));
-        if let Some(exerts) = exerts {
-            self.exerts(&element.name, exerts);
-        }
         if let Some(sticks) = sticks {
             self.push_friction(&element.name, sticks);
         }

@@ -196,6 +196,23 @@ impl Resolver<'_> {
         self.push_applied(name, applied);
     }
 
+    /// Adds the forces of an element or a stop, the energies that it holds, and the scalar that it exerts.
+    pub(super) fn push_forces(
+        &mut self,
+        name: &Ident,
+        applied: Vec<Applied>,
+        energies: Vec<Expr>,
+        exerts: Option<Exerts>,
+    ) {
+        for applied in applied {
+            self.push_applied(name, applied);
+        }
+        self.potentials.extend(energies);
+        if let Some(exerts) = exerts {
+            self.exerts(name, exerts);
+        }
+    }
+
     pub(super) fn push_applied(&mut self, name: &Ident, Applied { work, loads }: Applied) {
         match loads {
             Some(loads) => self.loads.extend(loads),
@@ -207,7 +224,7 @@ impl Resolver<'_> {
     }
 
     /// Notes what scalar an element exerts, for outputs.
-    pub(super) fn exerts(&mut self, name: &Ident, exerts: Exerts) {
+    fn exerts(&mut self, name: &Ident, exerts: Exerts) {
         if let Some(source) = self.scope.sources.get_mut(&name.to_string()) {
             source.exerts = Some(exerts);
         }

@@ -89,13 +89,7 @@ impl Resolver<'_> {
         }
         effects.exert(push, dimension);
         let Effects { applied, energies, exerts, .. } = effects;
-        for applied in applied {
-            self.push_applied(name, applied);
-        }
-        self.potentials.extend(energies);
-        if let Some(exerts) = exerts {
-            self.exerts(name, exerts);
-        }
+        self.push_forces(name, applied, energies, exerts);
     }
 }
 
