@@ -1,6 +1,6 @@
 //! Results of a run: columns of numbers and a summary.
 
-use mbs_analysis::Signal;
+use mbs_analysis::{Signal, Variable};
 use mbs_runtime::{Constraint, Effort, Info};
 
 use crate::doubt::Doubt;
@@ -105,6 +105,15 @@ impl Recording {
         }
         Ok(selected)
     }
+}
+
+/// The memories that are recorded: their places among the inputs, and their units.
+pub(crate) fn memories(info: &Info) -> Vec<(usize, Unit)> {
+    let memory = |signal: &Signal| match signal.variable {
+        Variable::Input(at) => Some((at, Unit::of_signal(info, signal))),
+        _ => None,
+    };
+    Signal::memories(info).iter().filter_map(memory).collect()
 }
 
 /// The columns of a recording, empty.

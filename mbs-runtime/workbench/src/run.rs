@@ -1,6 +1,6 @@
 //! Runs of a mechanism, recorded.
 
-use mbs_analysis::{Signal, Variable};
+use mbs_analysis::Signal;
 use mbs_runtime::equations::At;
 use mbs_runtime::{Info, System};
 
@@ -9,7 +9,7 @@ use crate::doubt::{Watch, few_digits, size, small_states};
 use crate::instant::Instant;
 use crate::model::Model;
 use crate::notes::{end_note, notes};
-use crate::recording::{MOST_OCCURRENCES, Recording, Summary, columns};
+use crate::recording::{MOST_OCCURRENCES, Recording, Summary, columns, memories};
 use crate::resolution::Resolution;
 use crate::settings::{Settings, Start, StartKind};
 use crate::until::{Ending, Unmet};
@@ -184,12 +184,8 @@ impl Recorder {
         let watch = Watch::new(info, model.derivation(), size);
         let phi = vec![0.0; info.constraints.len()];
         let units = Signal::states(info).iter().map(|signal| Unit::of_signal(info, signal)).collect();
-        let memory = |signal: &Signal| match signal.variable {
-            Variable::Input(at) => Some((at, Unit::of_signal(info, signal))),
-            _ => None,
-        };
-        let memories = Signal::memories(info).iter().filter_map(memory).collect();
-        let (columns, until, occurrences) = (columns(info), until.cloned(), Vec::new());
+        let (columns, memories) = (columns(info), memories(info));
+        let (until, occurrences) = (until.cloned(), Vec::new());
         Self {
             info,
             columns,

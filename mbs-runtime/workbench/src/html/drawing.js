@@ -66,5 +66,17 @@ const drawing = (() => {
     };
   }
 
-  return { COLOURS, format, scale, range, axis, width };
+  // Draws ticks at the upper edge of a plot, where something happens.
+  function marker(times, ink = "#1e1e1e") {
+    return ({ ctx, bbox, valToPos }) => {
+      const all = times().map((time) => Math.round(valToPos(time, "x", true)));
+      ctx.save();
+      ctx.fillStyle = ink;
+      const shown = new Set(all.filter((x) => x >= bbox.left && x <= bbox.left + bbox.width));
+      shown.forEach((x) => ctx.fillRect(x - 0.75 * devicePixelRatio, bbox.top, 1.5 * devicePixelRatio, 9 * devicePixelRatio));
+      ctx.restore();
+    };
+  }
+
+  return { COLOURS, format, scale, range, axis, width, marker };
 })();

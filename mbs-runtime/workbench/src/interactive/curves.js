@@ -1,16 +1,17 @@
 // Curves that follow the run: two plots, each of a column that can be chosen.
 const curves = (() => {
-  const { data, tables, rows } = session, MOST_POINTS = 1200;
+  const { data, tables, rows, changes } = session, MOST_POINTS = 1200;
   const n = tables.coordinates.length, outputs = tables.outputs.length, all = data.columns.length;
   const begin = tables.lines ? 1 : 1 + n;
-  const first = outputs ? [all - 1 - outputs, outputs > 1 ? all - outputs : begin] : [begin, n > 1 ? begin + 1 : 1 + n];
+  const behind = data.memories.length + 1, output = all - behind - outputs;
+  const first = outputs ? [output, outputs > 1 ? output + 1 : begin] : [begin, n > 1 ? begin + 1 : 1 + n];
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 
   function plot(parent, at, column) {
     const box = document.createElement("div"), choice = document.createElement("select"), place = document.createElement("div");
     choice.setAttribute("aria-label", `curve ${at + 1}`);
     const order = [...data.columns.keys()].slice(1);
-    const outer = order.slice(all - 2 - outputs), inner = order.slice(0, all - 2 - outputs);
+    const outer = order.slice(output - 1), inner = order.slice(0, output - 1);
     choice.replaceChildren(...[...outer, ...inner].map((k) => new Option(data.columns[k], k, k === column, k === column)));
     box.append(choice, place);
     parent.append(box);
@@ -24,6 +25,7 @@ const curves = (() => {
         scales: { x: { time: false }, y: { range: drawing.range } },
         axes: [drawing.axis({ label: "t [s]" }, 40, colours), drawing.axis({ label: data.columns[choice.value] }, drawing.width(60), colours)],
         series: [{}, { stroke: drawing.COLOURS[at], width: 1.8 }],
+        hooks: { draw: [drawing.marker(() => changes, style("ink"))] },
       }, points(), place);
     };
     const points = () => {

@@ -34,7 +34,7 @@ use sha2::{Digest, Sha256};
 use crate::html::{DRAWING_SCRIPT, SHAPES_SCRIPT, UPLOT_SCRIPT, UPLOT_STYLE, escaped, escaped_json, filled};
 use crate::model::without_text;
 use crate::picture::json::shape;
-use crate::recording::columns;
+use crate::recording::{columns, memories};
 use crate::settings::{Start, StartKind};
 use crate::{Error, Model, Picture, Settings, Unit};
 
@@ -96,6 +96,9 @@ impl dyn Model + '_ {
             "outputs": shown(info.outputs),
             "places": places,
             "rates": rates,
+            "memories": memories(info).iter().map(|(at, unit)| json!([at, unit.read(1.0)])).collect::<Vec<_>>(),
+            "holding": holding(info),
+            "impulses": info.stops.iter().map(|stop| stop.memory + 1).collect::<Vec<_>>(),
             "start": { "parameters": parameters, "inputs": inputs },
             "bodies": self.sketch().bodies.iter().map(|body| json!({ "name": body.name, "points": body.points })).collect::<Vec<_>>(),
             "picture": drawn(&picture),
@@ -134,6 +137,12 @@ fn shown(quantities: &[Quantity]) -> Vec<Value> {
         json!({ "unit": unit.name().replace('*', "·"), "scale": unit.read(1.0) })
     };
     quantities.iter().map(unit).collect()
+}
+
+/// The places among the inputs of what may hold: stops that are rested on, and modes.
+fn holding(info: &Info) -> Vec<usize> {
+    let stops = info.stops.iter().map(|stop| stop.memory);
+    stops.chain(info.modes.modes.iter().map(|mode| mode.memory)).collect()
 }
 
 /// The shapes between the points of the module, and what a run has shown of their places.

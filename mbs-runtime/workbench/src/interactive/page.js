@@ -17,7 +17,7 @@
   function show() {
     scene.draw();
     curves.draw();
-    time.textContent = `t = ${run.t.toFixed(4)} s`;
+    time.textContent = [`t = ${run.t.toFixed(4)} s`, ...session.holding()].join(" · ");
   }
 
   // What a run says of itself is shown in its words; a mistake of the page stays one.

@@ -14,19 +14,37 @@ const session = await (async () => {
   run.inputs.set(data.start.inputs);
   // About a thousand rows in the time that a run usually takes; the oldest make room.
   const STRIDE = Math.max(1, Math.round(data.end / data.step / 1000)), MOST_ROWS = 20000;
-  const rows = [];
-  let taken = 0, isAsDeclared = true;
+  const rows = [], changes = [];
+  let taken = 0, isAsDeclared = true, before = [];
 
-  // The columns of a recording: time, coordinates, rates, multipliers, outputs, violation.
+  // The columns of a recording: time, coordinates, rates, multipliers, outputs, memories, violation.
   function record() {
     const { multipliers, outputs } = run.results();
     const shown = (values, of) => Array.from(values, (value, at) => value / (of[at]?.scale ?? 1));
-    rows.push([run.t, ...shown(run.q, data.places), ...shown(run.v, data.rates), ...multipliers, ...shown(outputs, data.outputs), run.violation()]);
+    const memories = data.memories.map(([at, scale]) => run.inputs[at] / scale);
+    rows.push([run.t, ...shown(run.q, data.places), ...shown(run.v, data.rates), ...multipliers, ...shown(outputs, data.outputs), ...memories, run.violation()]);
     if (rows.length > MOST_ROWS) rows.splice(0, MOST_ROWS / 10);
   }
 
+  // The names of the stops that are rested on and of the modes that hold.
+  function holding() {
+    return data.holding.filter((at) => run.inputs[at] > 0.5).map((at) => tables.inputs[at].name);
+  }
+
+  // Notes the time where a stop is hit or left, or a mode is entered or left; of many the last ones.
+  function note() {
+    const now = [...data.holding, ...data.impulses].map((at) => run.inputs[at]);
+    if (before.length && now.some((value, at) => value !== before[at])) changes.push(run.t);
+    if (changes.length > MOST_ROWS) changes.shift();
+    before = now;
+  }
+
+  function forget() {
+    rows.length = changes.length = before.length = taken = 0;
+  }
+
   function restart() {
-    rows.length = taken = 0;
+    forget();
     isAsDeclared = true;
     run.start();
     record();
@@ -35,6 +53,7 @@ const session = await (async () => {
   function step() {
     run.step();
     taken++;
+    note();
     if (taken % STRIDE === 0) record();
   }
 
@@ -64,10 +83,10 @@ const session = await (async () => {
   // At rest at some positions, or the nearest that keep the constraints.
   function place(q) {
     run.goOnFrom(q, new Float64Array(q.length));
-    rows.length = taken = 0;
+    forget();
     isAsDeclared = false;
     record();
   }
 
-  return { data, tables, mechanism, run, rows, restart, step, setParameters, setInputs, place };
+  return { data, tables, mechanism, run, rows, changes, holding, restart, step, setParameters, setInputs, place };
 })();

@@ -37,5 +37,6 @@ pub(super) fn panel(panel: &Panel) -> Value {
         Content::Lines(curves) => curves.iter().map(|curve| series(curve, shown)).collect::<Vec<_>>(),
         Content::Map(_) | Content::Mechanism(_) => Vec::new(),
     };
-    json!({ "kind": "lines", "x": axis(&panel.x), "y": axis(&panel.y), "series": curves })
+    let marks: Vec<Value> = panel.marks.iter().map(|mark| number(*mark)).collect();
+    json!({ "kind": "lines", "x": axis(&panel.x), "y": axis(&panel.y), "series": curves, "marks": marks })
 }

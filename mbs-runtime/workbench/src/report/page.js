@@ -20,6 +20,7 @@
       axes: [axis(panel.x, 46), axis(panel.y, drawing.width(88))],
       series: [{ label: panel.x.label, value: (u, v) => format(v, 6) }, ...series],
       cursor: { drag: { x: true, y: false } },
+      hooks: { draw: [drawing.marker(() => panel.marks)] },
     };
     // One curve is named by its axis.
     element.classList.toggle("alone", panel.series.length === 1);

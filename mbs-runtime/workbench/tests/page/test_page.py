@@ -11,8 +11,8 @@ import pytest
 from playwright.sync_api import sync_playwright
 
 MBS = os.environ["MBS"]
-# a driven mechanism, chaotic ones, a spline, friction, springs, reduced states, stops that rub
-MODELS = ["slider-crank", "double-pendulum", "cam-follower", "block-on-incline", "jansen", "reduced", "rough"]
+# a driven mechanism, chaotic ones, a spline, friction, springs, reduced states, stops that rub, a mode
+MODELS = ["slider-crank", "double-pendulum", "cam-follower", "block-on-incline", "jansen", "reduced", "rough", "hooked"]
 REDUCED = """Reduced {
     dof = 1; states = reduced;
     param length = 0.4 [m] where length > 0;
@@ -34,9 +34,19 @@ ROUGH = """Rough {
     point right on block = (0.2 [m], -0.1 [m]);
     stop at_left: block.left.y >= 0 [m] { restitution = 0.3; friction = 0.4; along = block.left.x; }
     stop at_right: block.right.y >= 0 [m] { restitution = 0.3; friction = 0.4; along = block.right.x; }
-    start { y = 0.15 [m]; phi = 0.3; der(x) = 1 [m/s]; der(phi) = 4 [rad/s]; }
+    start { y = 0.17 [m]; phi = 0.3; der(x) = 1 [m/s]; der(phi) = 4 [rad/s]; }
 }"""
-TEXTS = {"reduced": REDUCED, "rough": ROUGH}
+HOOKED = """Hooked {
+    dof = 1;
+    body slide (x) { mass = 2 [kg]; }
+    potential spring = 50 [N/m]*x^2/2;
+    mode caught { constraint hook: x = 0.2 [m]; }
+    when x > 0.2 [m] { enter caught; }
+    when t > 0.8 [s] { leave caught; }
+    start { x = -0.3 [m]; }
+    output force [N] = lambda(hook);
+}"""
+TEXTS = {"reduced": REDUCED, "rough": ROUGH, "hooked": HOOKED}
 
 
 @pytest.fixture(scope="session")
@@ -95,9 +105,9 @@ class Opened:
         return table(self.download("#csv"))
 
     def native(self, end, *options):
-        """The same of the program."""
+        """The same of the program, with constant steps as in the page."""
         file = self.folder / "native.csv"
-        command = [MBS, "simulate", self.model, "--end", repr(end), "--out", file, *options]
+        command = [MBS, "simulate", self.model, "--end", repr(end), "--method", "heun", "--out", file, *options]
         # a doubt about the numbers of a run is a warning, with code 3
         assert subprocess.run(command, stdout=subprocess.DEVNULL).returncode in (0, 3)
         return table(file)
@@ -166,6 +176,33 @@ def test_a_page_begins_with_the_values_that_were_set(browser, tmp_path):
     opened.page.click("#parameters button")
     assert opened.page.input_value("#parameters-length") == "0.4"
     assert opened.complaints == []
+
+
+def test_what_holds_is_shown_and_its_changes_are_marked(browser, tmp_path):
+    opened = Opened(browser, tmp_path, "hooked")
+    page = opened.page
+    assert page.inner_text("#time") == "t = 0.0000 s"
+    caught = {}
+    for row in opened.native(1.0)[1]:
+        caught[row[0]] = row[-2]
+    before = lambda t: caught[max(at for at in caught if at < t)]
+    page.select_option("#speed", "0.2")
+    page.click("#play")
+    opened.until("mechanism.changes.length === 1")
+    opened.until("document.getElementById('time').textContent.endsWith(' · caught')")
+    opened.until("mechanism.changes.length === 2")
+    page.click("#play")
+    assert "caught" not in page.inner_text("#time")
+    entered, left = page.evaluate("mechanism.changes")
+    assert (before(entered), caught[entered]) == (0, 1) and (before(left), caught[left]) == (1, 0)
+    page.click("#restart")
+    assert page.evaluate("mechanism.changes") == []
+    # hits are changes, too
+    rough = Opened(browser, tmp_path, "rough")
+    rough.page.click("#play")
+    rough.until("document.getElementById('time').textContent.endsWith(' · at_left · at_right')")
+    assert rough.page.evaluate("mechanism.changes.length") > 4
+    assert opened.complaints == rough.complaints == []
 
 
 def test_inputs_change_a_run_while_it_plays(browser, tmp_path):
