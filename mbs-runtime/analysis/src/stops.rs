@@ -1,6 +1,7 @@
 //! The stops that a mechanism rests on, the constraints of modes that hold, and positions off them.
 
 use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 
 use mbs_runtime::equations::{At, Described, are_independent};
 use mbs_runtime::{DeclaredLock, Info};
@@ -99,7 +100,7 @@ pub fn complementary<R>(
     let (mut tried, mut first, mut falling) = (BTreeSet::new(), None, None);
     let (at_start, size) = gaps(mechanism, t, from);
     let mut next = Some((0..count).filter(|stop| at_start[*stop].abs() <= size).collect::<BTreeSet<_>>());
-    let mut all = subsets(count, usize::try_from(mechanism.info().dof).unwrap_or(0));
+    let mut all = subsets(count, 0..=usize::try_from(mechanism.info().dof).unwrap_or(0));
     while tried.len() < MOST_SETS {
         let Some(set) = next.take().or_else(|| all.find(|set| !tried.contains(set))) else { break };
         tried.insert(set.clone());
@@ -169,16 +170,16 @@ fn judged<R>(
     }
 }
 
-/// All sets of up to so many stops, the smallest ones first.
-fn subsets(count: usize, most: usize) -> impl Iterator<Item = BTreeSet<usize>> {
-    (0..=most.min(count)).flat_map(move |size| {
+/// All sets of so many stops, the smallest ones first.
+fn subsets(count: usize, sizes: RangeInclusive<usize>) -> impl Iterator<Item = BTreeSet<usize>> {
+    sizes.take_while(move |size| *size <= count).flat_map(move |size| {
         let sets = (0..1_u32 << count).filter(move |bits| bits.count_ones() as usize == size);
         sets.map(move |bits| (0..count).filter(|stop| bits & (1 << stop) != 0).collect())
     })
 }
 
 /// The rows beside the constraints at a point: of the modes that hold, and of the stops that are closed there, if all of them
-/// push.
+/// push. Of stops that depend on each other, such as three feet on a floor, as many as are independent.
 ///
 /// # Errors
 /// A point behind a stop, or that touches one which does not push: what is beside it is not linear; one that is off a
@@ -192,28 +193,56 @@ pub fn rows_at(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result
     }
     meets_modes(mechanism, (t, q), &point.inputs)?;
     let held = held_rows(mechanism, (t, q), &point.inputs);
+    let are_free = |rows: &[usize]| are_independent(mechanism, (t, q), rows);
     // a gap that joints and modes keep sees no small motion
-    let moves = |stop: usize| are_independent(mechanism, (t, q), &[&held[..], &[stop]].concat());
+    let moves = |stop: usize| are_free(&[&held[..], &[stop]].concat());
     let closed: Vec<usize> = (0..gaps.len()).filter(|stop| gaps[*stop] <= size && moves(*stop)).collect();
-    let Some(first) = closed.first() else { return Ok(held) };
-    let rows = [&held[..], &closed].concat();
-    let resting = Resting::new(mechanism, &rows);
-    let (mut a, mut multipliers) = (vec![0.0; q.len()], vec![0.0; info.constraints.len() + rows.len()]);
-    resting.reactions(At { t, q, v: &point.v }, &point.inputs, &mut a, &mut multipliers);
-    let of_stops = &multipliers[info.constraints.len() + held.len()..];
-    let largest = of_stops.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    let pushes = |at: &usize| of_stops[*at] < -PULLS * largest;
-    let loose = (0..closed.len()).find(|at| !pushes(at));
-    match loose
-        .map(|at| closed[at])
-        .or_else(|| (!are_independent(mechanism, (t, q), &rows)).then_some(*first))
-    {
+    let mut rows = held.clone();
+    for stop in &closed {
+        rows.push(*stop);
+        if !are_free(&rows) {
+            rows.pop();
+        }
+    }
+    let pushing = pushing(mechanism, point, &held, (&closed, rows.len() - held.len()));
+    match closed.iter().find(|stop| !pushing.contains(stop)) {
         None => Ok(rows),
         Some(stop) => {
             let what = "a linear system about a position that touches a stop without force";
-            Err(mbs_runtime::Error::Stops { what, stop: info.stops[stop].name }.into())
+            Err(mbs_runtime::Error::Stops { what, stop: info.stops[*stop].name }.into())
         }
     }
+}
+
+/// Those of some closed stops, of which so many are independent, that can push while none pulls. The forces on dependent stops
+/// are not unique: each set of independent ones that balances the loads is one answer, and the mean of answers is one too.
+fn pushing(
+    mechanism: &dyn Described<f64>,
+    point: &OperatingPoint,
+    held: &[usize],
+    (closed, independent): (&[usize], usize),
+) -> BTreeSet<usize> {
+    let (t, q) = (point.t, &point.q[..]);
+    let mut pushing = BTreeSet::new();
+    for set in subsets(closed.len(), independent..=independent).take(MOST_SETS) {
+        let stops: Vec<usize> = set.iter().map(|at| closed[*at]).collect();
+        let rows = [held, &stops].concat();
+        if !are_independent(mechanism, (t, q), &rows) {
+            continue;
+        }
+        let resting = Resting::new(mechanism, &rows);
+        let declared = mechanism.info().constraints.len();
+        let (mut a, mut multipliers) = (vec![0.0; q.len()], vec![0.0; declared + rows.len()]);
+        resting.reactions(At { t, q, v: &point.v }, &point.inputs, &mut a, &mut multipliers);
+        // a multiplier is minus what a stop pushes with
+        let of_stops = &multipliers[declared + held.len()..];
+        let largest = of_stops.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        if of_stops.iter().all(|multiplier| *multiplier <= PULLS * largest) {
+            let pushes = stops.iter().zip(of_stops).filter(|(_, multiplier)| **multiplier < -PULLS * largest);
+            pushing.extend(pushes.map(|(stop, _)| *stop));
+        }
+    }
+    pushing
 }
 
 /// Why there is no linear system by parameters about a row of a stop or of a mode.

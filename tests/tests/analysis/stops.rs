@@ -120,6 +120,37 @@ fn a_block_stands_flat_and_not_on_its_corner() {
     }
 }
 
+/// The forces on three feet are not unique, and the motions that they leave are: all feet stay where they are as long as the
+/// centre of mass lies within them, however near to the end. On the outer foot, the others touch without force.
+#[test]
+fn a_block_on_three_feet_moves_as_on_two() {
+    let block = |first: f64| {
+        let text = format!(
+            "Block {{
+                dof = 3;
+                gravity = (0, -9.81) [m/s^2];
+                body block (x, y, a) {{ mass = 1 [kg]; inertia = 0.01 [kg*m^2]; }}
+                point p on block = ({first:?}, -0.05) [m]; point r on block = (0.1, -0.05) [m];
+                point s on block = (0.2, -0.05) [m];
+                stop left: block.p.y >= 0 [m] {{ restitution = 0; }}
+                stop middle: block.r.y >= 0 [m] {{ restitution = 0; }}
+                stop right: block.s.y >= 0 [m] {{ restitution = 0; }}
+                force back on x = -25 [N/m]*x;
+                start {{ y = 0.05 [m]; }}
+            }}"
+        );
+        let live = Text::declaration("block.mbs", text).compile().unwrap_or_else(|error| panic!("{error}"));
+        let at = OperatingPoint::at_rest(0.0, &[0.0, 0.05, 0.0], &[0.0; 6]);
+        linearize(&live, &at, &Ports::default()).and_then(|system| system.modes())
+    };
+    for first in [-0.1, -0.001] {
+        let modes = block(first).unwrap();
+        assert!(modes.len() == 1 && (modes[0].natural_frequency() - 5.0).abs() < 1e-9, "{}", modes.len());
+    }
+    let error = block(0.0).map(|_| ()).unwrap_err();
+    assert!(error.to_string().contains("touches a stop without force"), "{error}");
+}
+
 /// A force that drives away from a stop leaves no rest, on the stop neither. A position that touches a stop without force has
 /// two sides, and no linear system.
 #[test]
