@@ -1,44 +1,26 @@
 //! Runs to a tolerance, and with a constant step of other methods than schemes, of mechanisms whose type is no longer known.
 //!
-//! Such runs are compiled once for all types. A type is behind its equations on slices here, and vectors are
-//! on the heap.
-
-use std::sync::Arc;
+//! Such runs are compiled once, here, for all types and texts. A type is behind its equations on slices, vectors are on the
+//! heap, and what calls a run knows neither.
 
 use mbs_analysis::{Driven, Trials};
-use mbs_runtime::equations::{At, Correction, Described, Partials, Room, correction};
+use mbs_runtime::equations::{At, Described, Partials, Room};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{
-    Adaptive, AdaptiveScheme, Components, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method,
-    MethodVisitor, Rattle, Real, Sampled, Scheme, State, SystemClone, Tolerances, TrBdf2, implicit,
-    with_type,
+    Adaptive, AdaptiveScheme, ConstantStepBuilder, Dynamics, Error, Kernel, Mechanism, Method, MethodVisitor,
+    Rattle, Real, Sampled, Scheme, SystemClone, Tolerances, TrBdf2, implicit, with_type,
 };
 
+use crate::of_type::OfType;
 use crate::settings::{OtherMethod, Start, StartKind, StartState};
-use crate::simulated::components;
 use crate::stages::Stages;
 
-/// Dynamics of which runs are made here: coordinates and inputs are vectors of `f64`. Every mechanism has this
-/// form behind its equations on slices.
-pub(crate) trait OnVectors:
-    Dynamics<Real = f64, Coordinates = Vec<f64>, Inputs = Vec<f64>> + Clone + Send + 'static
-{
-}
-
-impl<D> OnVectors for D where
-    D: Dynamics<Real = f64, Coordinates = Vec<f64>, Inputs = Vec<f64>> + Clone + Send + 'static
-{
-}
-
 /// Starts a run to a tolerance with the scheme that is asked for, looked at in steps of the given length.
-pub(crate) fn start<D>(
-    dynamics: D,
+pub(crate) fn start(
+    dynamics: Erased,
     tolerances: Tolerances,
     start: &Start,
-) -> Result<Box<dyn SystemClone>, Error>
-where
-    D: OnVectors,
-{
+) -> Result<Box<dyn SystemClone>, Error> {
     let started = Started { dynamics: driven(dynamics, start), tolerances, start };
     let (name, found) = match start.other {
         Some(OtherMethod::Implicit(scheme)) => (scheme.word, implicit::with_type(scheme, started)),
@@ -48,14 +30,11 @@ where
 }
 
 /// Starts a run with a constant step of a method of another kind.
-pub(crate) fn constant<D>(
-    dynamics: D,
+pub(crate) fn constant(
+    dynamics: Erased,
     method: OtherMethod,
     start: &Start,
-) -> Result<Box<dyn SystemClone>, Error>
-where
-    D: OnVectors,
-{
+) -> Result<Box<dyn SystemClone>, Error> {
     let dynamics = driven(dynamics, start);
     match method {
         OtherMethod::Rattle(composition) => {
@@ -66,22 +45,21 @@ where
 }
 
 /// Starts a run with a constant step of a scheme, with inputs from a table.
-pub(crate) fn in_stages<D>(dynamics: D, start: &Start) -> Result<Box<dyn SystemClone>, Error>
-where
-    D: OnVectors,
-{
+pub(crate) fn in_stages(dynamics: Erased, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
     begun(ConstantStepBuilder::new(driven(dynamics, start), start.step, Stages::new(start)), start)
 }
 
 /// The mechanism with the inputs that change, and the time at which it starts.
-fn driven<D: Dynamics>(dynamics: D, start: &Start) -> Driven<D> {
+fn driven(dynamics: Erased, start: &Start) -> Driven<Erased> {
     Driven::new(dynamics, start.table.clone()).starting_at(start.start_time)
 }
 
-fn begun<D, K>(builder: ConstantStepBuilder<D, K>, start: &Start) -> Result<Box<dyn SystemClone>, Error>
+fn begun<K>(
+    builder: ConstantStepBuilder<Driven<Erased>, K>,
+    start: &Start,
+) -> Result<Box<dyn SystemClone>, Error>
 where
-    D: OnVectors,
-    K: Kernel<D> + Clone + 'static,
+    K: Kernel<Driven<Erased>> + Clone + 'static,
 {
     let mut builder = builder.inputs(start.inputs.clone());
     if let Some(StartState { start_time, steps_taken, q, v }) = start.state.clone() {
@@ -93,16 +71,13 @@ where
     Ok(Box::new(builder.build()?))
 }
 
-struct Started<'a, D> {
-    dynamics: D,
+struct Started<'a> {
+    dynamics: Driven<Erased>,
     tolerances: Tolerances,
     start: &'a Start,
 }
 
-impl<D> MethodVisitor for Started<'_, D>
-where
-    D: OnVectors,
-{
+impl MethodVisitor for Started<'_> {
     type Result = Result<Box<dyn SystemClone>, Error>;
 
     fn visit<X: Method>(self) -> Self::Result {
@@ -110,10 +85,7 @@ where
     }
 }
 
-impl<D> implicit::Visitor for Started<'_, D>
-where
-    D: OnVectors,
-{
+impl implicit::Visitor for Started<'_> {
     type Result = Result<Box<dyn SystemClone>, Error>;
 
     fn visit<S: AdaptiveScheme>(self) -> Self::Result {
@@ -121,10 +93,7 @@ where
     }
 }
 
-impl<D> Started<'_, D>
-where
-    D: OnVectors,
-{
+impl Started<'_> {
     fn with_scheme<S: AdaptiveScheme>(self) -> Result<Box<dyn SystemClone>, Error> {
         let Self { dynamics, tolerances, start } = self;
         let mut builder =
@@ -144,28 +113,114 @@ where
     }
 }
 
-/// A mechanism behind its equations on slices, so that runs to a tolerance are compiled once for
-/// all of them. `T` is its scalar: `f64`, or [`Partials`] for derivatives.
-#[derive(Clone)]
-pub(crate) struct Erased<T = f64> {
-    mechanism: Arc<dyn Described<T> + Send + Sync>,
-    start: (T, Vec<T>, Vec<T>),
-    inputs: Vec<T>,
-    no_feedback: Vec<T>,
-}
+/// A mechanism of a type or of a text, of which runs need not know more. `T` is its scalar: `f64`, or [`Partials`] for
+/// derivatives.
+pub(crate) struct Erased<T = f64>(Box<dyn OnVectors<T>>);
 
 impl<T: Real> Erased<T> {
-    /// The same mechanism, its type forgotten.
-    pub fn new<M: Mechanism<Real = T>>(mechanism: M) -> Self {
-        let numbers = |array: &dyn AsRef<[T]>| array.as_ref().to_vec();
-        let State { t, q, v } = mechanism.declared_start();
-        Self {
-            start: (t, numbers(&q.into_array()), numbers(&v.into_array())),
-            inputs: numbers(&M::Inputs::default().into_array()),
-            no_feedback: vec![T::ZERO; M::INFO.constraints.len()],
-            mechanism: Arc::new(mechanism),
-        }
+    /// A mechanism whose vectors are on the heap, as those of texts.
+    pub fn new<D>(dynamics: D) -> Self
+    where
+        D: Dynamics<Real = T, Coordinates = Vec<T>, States = Vec<T>, Constraints = Vec<T>, Inputs = Vec<T>>
+            + 'static,
+    {
+        Self(Box::new(dynamics))
     }
+
+    /// A mechanism of a type.
+    pub fn of_type<M: Mechanism<Real = T>>(mechanism: M) -> Self {
+        Self::new(OfType::new(mechanism))
+    }
+}
+
+impl<T> Clone for Erased<T> {
+    fn clone(&self) -> Self {
+        Self(self.0.copied())
+    }
+}
+
+/// [`Dynamics`] on vectors, without functions that know types.
+trait OnVectors<T>: Send {
+    fn copied(&self) -> Box<dyn OnVectors<T>>;
+    fn described(&self) -> &dyn Described<T>;
+    fn declared_start(&self) -> (T, Vec<T>, Vec<T>);
+    fn states(&self, all: &Vec<T>) -> Vec<T>;
+    fn complete(&self, t: T, q: &Vec<T>, v: &Vec<T>, all: &mut [Vec<T>; 2]);
+    fn default_inputs(&self) -> Vec<T>;
+    fn events(&self, at: At<'_, T>, inputs: &Vec<T>, values: &mut [T]);
+    fn free_acceleration(&self, t: T, at: [&Vec<T>; 2], inputs: &Vec<T>, acceleration: &mut Vec<T>) -> T;
+    fn implicit(
+        &self,
+        t: T,
+        at: [&Vec<T>; 2],
+        inputs: &Vec<T>,
+        given: (T, &Vec<T>),
+        acceleration: &mut Vec<T>,
+    ) -> T;
+    fn correction(&self, t: T, at: &Beside<'_, Vec<T>>, delta: &mut Vec<T>) -> T;
+    fn correction_along(&self, from: (T, &Vec<T>), t: T, q: &Vec<T>, delta: &mut Vec<T>) -> T;
+}
+
+impl<T: Real, D> OnVectors<T> for D
+where
+    D: Dynamics<Real = T, Coordinates = Vec<T>, States = Vec<T>, Constraints = Vec<T>, Inputs = Vec<T>>
+        + 'static,
+{
+    fn copied(&self) -> Box<dyn OnVectors<T>> {
+        Box::new(self.clone())
+    }
+
+    fn described(&self) -> &dyn Described<T> {
+        Dynamics::described(self)
+    }
+
+    fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {
+        Dynamics::declared_start(self)
+    }
+
+    fn states(&self, all: &Vec<T>) -> Vec<T> {
+        Dynamics::states(self, all)
+    }
+
+    fn complete(&self, t: T, q: &Vec<T>, v: &Vec<T>, all: &mut [Vec<T>; 2]) {
+        Dynamics::complete(self, t, q, v, all);
+    }
+
+    fn default_inputs(&self) -> Vec<T> {
+        Dynamics::default_inputs(self)
+    }
+
+    fn events(&self, at: At<'_, T>, inputs: &Vec<T>, values: &mut [T]) {
+        Dynamics::events(self, at, inputs, values);
+    }
+
+    fn free_acceleration(&self, t: T, [q, v]: [&Vec<T>; 2], inputs: &Vec<T>, acceleration: &mut Vec<T>) -> T {
+        Dynamics::free_acceleration(self, t, q, v, inputs, acceleration)
+    }
+
+    fn implicit(
+        &self,
+        t: T,
+        at: [&Vec<T>; 2],
+        inputs: &Vec<T>,
+        given: (T, &Vec<T>),
+        acceleration: &mut Vec<T>,
+    ) -> T {
+        Dynamics::implicit(self, t, at, inputs, given, acceleration)
+    }
+
+    fn correction(&self, t: T, at: &Beside<'_, Vec<T>>, delta: &mut Vec<T>) -> T {
+        Dynamics::correction(self, t, at, delta)
+    }
+
+    fn correction_along(&self, from: (T, &Vec<T>), t: T, q: &Vec<T>, delta: &mut Vec<T>) -> T {
+        Dynamics::correction_along(self, from, t, q, delta)
+    }
+}
+
+/// A vector of zeros; what a run computes with on the heap.
+fn zeros<T: Real>(count: usize) -> Vec<T> {
+    vec![T::ZERO; count]
 }
 
 impl<T: Real> Dynamics for Erased<T> {
@@ -176,29 +231,27 @@ impl<T: Real> Dynamics for Erased<T> {
     type Inputs = Vec<T>;
 
     fn described(&self) -> &dyn Described<T> {
-        &*self.mechanism
+        self.0.described()
     }
 
     fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {
-        self.start.clone()
+        self.0.declared_start()
     }
 
     fn states(&self, all: &Vec<T>) -> Vec<T> {
-        let mut states = vec![T::ZERO; self.mechanism.info().states.len()];
-        self.mechanism.states(all, &mut states);
-        states
+        self.0.states(all)
     }
 
-    fn complete(&self, t: T, q: &Vec<T>, v: &Vec<T>, [q_all, v_all]: &mut [Vec<T>; 2]) {
-        self.mechanism.complete(At { t, q, v }, q_all, v_all);
+    fn complete(&self, t: T, q: &Vec<T>, v: &Vec<T>, all: &mut [Vec<T>; 2]) {
+        self.0.complete(t, q, v, all);
     }
 
     fn no_feedback(&self) -> Vec<T> {
-        self.no_feedback.clone()
+        zeros(self.0.described().info().constraints.len())
     }
 
     fn default_inputs(&self) -> Vec<T> {
-        self.inputs.clone()
+        self.0.default_inputs()
     }
 
     fn with_inputs<R>(&self, inputs: &mut Vec<T>, what: impl FnOnce(&mut [T]) -> R) -> R {
@@ -209,13 +262,13 @@ impl<T: Real> Dynamics for Erased<T> {
         &self,
         what: impl FnOnce(&mut Room<'_, T>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let info = self.mechanism.info();
-        let mut numbers = vec![T::ZERO; Room::<T>::len(info, S::TABLEAU.stage_count())];
+        let info = self.0.described().info();
+        let mut numbers = zeros(Room::<T>::len(info, S::TABLEAU.stage_count()));
         what(&mut Room::within(&mut numbers, info))
     }
 
     fn events(&self, at: At<'_, T>, inputs: &Vec<T>, values: &mut [T]) {
-        self.mechanism.events(at, inputs, values);
+        self.0.events(at, inputs, values);
     }
 
     fn free_acceleration(
@@ -226,44 +279,30 @@ impl<T: Real> Dynamics for Erased<T> {
         inputs: &Vec<T>,
         acceleration: &mut Vec<T>,
     ) -> T {
-        let at = At { t, q, v };
-        self.mechanism.constrained(at, inputs, &self.no_feedback, acceleration)
+        self.0.free_acceleration(t, [q, v], inputs, acceleration)
     }
 
     fn implicit(
         &self,
         t: T,
-        [q, v]: [&Vec<T>; 2],
+        at: [&Vec<T>; 2],
         inputs: &Vec<T>,
-        (shift, predicted): (T, &Vec<T>),
+        given: (T, &Vec<T>),
         acceleration: &mut Vec<T>,
     ) -> T {
-        self.mechanism.implicit(At { t, q, v }, inputs, shift, predicted, acceleration)
+        self.0.implicit(t, at, inputs, given, acceleration)
     }
 
     fn correction(&self, t: T, at: &Beside<'_, Vec<T>>, delta: &mut Vec<T>) -> T {
-        let [mut q, mut v, mut all] = [(); 3].map(|()| self.start.1.clone());
-        let mut violation = self.no_feedback.clone();
-        let room = Correction { all: [&mut q, &mut v, &mut all], violation: &mut violation };
-        correction(&*self.mechanism, t, at.q, at.v.map(Vec::as_slice), room, delta)
+        self.0.correction(t, at, delta)
     }
 
     fn correction_along(&self, from: (T, &Vec<T>), t: T, q: &Vec<T>, delta: &mut Vec<T>) -> T {
-        let [mut all, mut unread, mut correction] = [(); 3].map(|()| self.start.1.clone());
-        let mut violation = self.no_feedback.clone();
-        // positions do not depend on velocities
-        self.mechanism.complete(At { t, q, v: q }, &mut all, &mut unread);
-        self.mechanism.phi(t, &all, &mut violation);
-        let (t, q) = from;
-        self.mechanism.complete(At { t, q, v: q }, &mut all, &mut unread);
-        let growth = self.mechanism.projection(t, &all, &violation, &mut correction);
-        self.mechanism.states(&correction, delta);
-        growth
+        self.0.correction_along(from, t, q, delta)
     }
 }
 
-/// Runs of a type with derivatives.
-pub(crate) fn trials<M: Mechanism<Real = f64>>() -> Box<dyn Trials + Sync> {
-    let mechanism = |parameters: &[Partials]| M::Over::<Partials>::new(components(parameters));
-    Box::new(move |parameters: &[Partials]| mechanism(parameters).map(Erased::new))
+/// Runs of a mechanism with derivatives, by what makes it from parameters.
+pub(crate) fn trials(make: fn(&[Partials]) -> Result<Erased<Partials>, Error>) -> Box<dyn Trials + Sync> {
+    Box::new(make)
 }

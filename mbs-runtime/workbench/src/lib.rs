@@ -78,6 +78,7 @@ mod models;
 mod notes;
 #[cfg(feature = "desk")]
 mod npz;
+mod of_type;
 mod operating;
 pub mod quantity;
 mod recording;

@@ -10,10 +10,11 @@ use mbs_runtime::equations::{At, Equations, Partials};
 use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, System, SystemClone, Tableau};
 use rayon::prelude::*;
 
+use crate::Model;
+use crate::adaptive::{self, Erased};
 use crate::members::lanes::{Batch, InLanes};
 use crate::members::{Extent, Member, extents};
 use crate::settings::{Settings, Start, StartKind, StartState};
-use crate::{Model, adaptive};
 
 /// The mechanism that a text declares as a [`Model`] with these defaults: compiled in
 /// milliseconds, and slower to run than one whose type the compiler knew.
@@ -83,13 +84,13 @@ impl Model for FromText {
     fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
         let live = self.with(&start.parameters)?;
         if let Some(tolerances) = start.tolerances {
-            return adaptive::start(Prepared::new(&live), tolerances, start);
+            return adaptive::start(Erased::new(Prepared::new(&live)), tolerances, start);
         }
         if let Some(method) = start.other {
-            return adaptive::constant(Prepared::new(&live), method, start);
+            return adaptive::constant(Erased::new(Prepared::new(&live)), method, start);
         }
         if start.has_signals() {
-            return adaptive::in_stages(Prepared::new(&live), start);
+            return adaptive::in_stages(Erased::new(Prepared::new(&live)), start);
         }
         Ok(Box::new(run(&live, start)?))
     }
@@ -102,7 +103,7 @@ impl Model for FromText {
         let over = self.live.over::<Partials>();
         Some(Box::new(move |parameters: &[Partials]| {
             let live = over.with_parameters(|own| own.copy_from_slice(parameters))?;
-            Ok(Prepared::new(&live))
+            Ok(Erased::new(Prepared::new(&live)))
         }))
     }
 

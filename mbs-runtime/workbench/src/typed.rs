@@ -3,6 +3,7 @@
 use std::marker::PhantomData;
 
 use mbs_analysis::Trials;
+use mbs_runtime::equations::Partials;
 use mbs_runtime::{
     Derivation, Error, Held, Info, Mechanism, PerStage, Projected, Scheme, Sketch, Stabilization,
     SystemClone, Tableau,
@@ -36,11 +37,12 @@ pub fn in_lanes<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> 
 /// The mechanism `M` as a [`Model`] that can be fitted to data, for which its equations are compiled for
 /// numbers with derivatives too.
 pub fn differentiated<M: Mechanism<Real = f64>>(defaults: Settings) -> Box<dyn Model> {
-    let trials: Option<MakeTrials> = Some(adaptive::trials::<M>);
+    let trials: Option<MakeTrials> =
+        Some(|parameters| M::Over::<Partials>::new(components(parameters)).map(Erased::of_type));
     Box::new(Typed { defaults, lanes: None, trials, mechanism: PhantomData::<M> })
 }
 
-type MakeTrials = fn() -> Box<dyn Trials + Sync>;
+type MakeTrials = fn(&[Partials]) -> Result<Erased<Partials>, Error>;
 
 struct Typed<M> {
     defaults: Settings,
@@ -78,17 +80,17 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
     fn start(&self, start: &Start) -> Result<Box<dyn SystemClone>, Error> {
         if let Some(tolerances) = start.tolerances {
             let mechanism = M::new(components(&start.parameters))?;
-            return adaptive::start(Erased::new(mechanism), tolerances, start);
+            return adaptive::start(Erased::of_type(mechanism), tolerances, start);
         }
         if let Some(method) = start.other {
             let mechanism = M::new(components(&start.parameters))?;
-            return adaptive::constant(Erased::new(mechanism), method, start);
+            return adaptive::constant(Erased::of_type(mechanism), method, start);
         }
         // A fused step of each method that could be chosen would take long to compile.
         let is_declared = start.method.tableau.is(M::Scheme::TABLEAU);
         if start.has_signals() || !is_declared {
             let mechanism = M::new(components(&start.parameters))?;
-            return adaptive::in_stages(Erased::new(mechanism), start);
+            return adaptive::in_stages(Erased::of_type(mechanism), start);
         }
         Ok(match start.method.stabilization {
             Stabilization::Held => Box::new(simulation::<M, Held<M::Scheme>>(start)?),
@@ -98,7 +100,7 @@ impl<M: Mechanism<Real = f64>> Model for Typed<M> {
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + Sync + '_>> {
-        self.trials.map(|make| make() as Box<dyn Trials + Sync>)
+        self.trials.map(|make| adaptive::trials(make) as Box<dyn Trials + Sync>)
     }
 
     fn in_lanes(&self) -> Option<&dyn InLanes> {
