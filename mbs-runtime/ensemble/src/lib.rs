@@ -92,6 +92,7 @@ pub use violation::{OfConstraints, Violation};
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use mbs_runtime::lanes::Lane;
 use mbs_runtime::{Error, Mechanism, Method, Simulation, State, WorstPlace};
@@ -311,9 +312,16 @@ impl<'a, const N: usize> Ensemble<'a, N> {
         let mut index = 0;
         for first in (0..blocks).step_by(at_once) {
             let last = blocks.min(first + at_once);
-            let outcomes: Option<Vec<_>> = (first..last).into_par_iter().map(run_block).collect();
-            let outcomes = outcomes.ok_or(Cancelled { finished: index })?;
-            for block in outcomes {
+            let slots: Vec<_> = (first..last).map(|_| Mutex::new(None)).collect();
+            in_parallel(slots.len(), &|at| {
+                let outcomes = run_block(first + at);
+                *slots[at].lock().unwrap_or_else(PoisonError::into_inner) = outcomes;
+            });
+            let outcomes: Option<Vec<_>> = slots
+                .into_iter()
+                .map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner))
+                .collect();
+            for block in outcomes.ok_or(Cancelled { finished: index })? {
                 for outcome in block.into_iter().flatten() {
                     take(index, outcome);
                     index += 1;
@@ -322,4 +330,9 @@ impl<'a, const N: usize> Ensemble<'a, N> {
         }
         Ok(())
     }
+}
+
+/// Does some pieces of work on the threads of the current pool. What runs threads is compiled once, and not for each mechanism.
+fn in_parallel(count: usize, work: &(dyn Fn(usize) + Sync)) {
+    (0..count).into_par_iter().for_each(work);
 }
