@@ -341,6 +341,11 @@ pub(crate) fn bit(stop: usize) -> u32 {
 
 /// The set of those of so many stops for which something holds.
 pub(crate) fn those(count: usize, holds: impl Fn(usize) -> bool) -> u32 {
+    those_of(count, &holds)
+}
+
+/// The same, compiled once.
+fn those_of(count: usize, holds: &dyn Fn(usize) -> bool) -> u32 {
     (0..count).filter(|stop| holds(*stop)).fold(0, |set, stop| set | bit(stop))
 }
 

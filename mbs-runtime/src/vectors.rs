@@ -66,6 +66,24 @@ pub(crate) fn magnitude<T: Real>(x: &[T], at: usize) -> T {
     x.get(at).map_or(T::default(), |x| x.abs())
 }
 
+/// An array whose components are those of a function. It is compiled once for a length, and not for each function.
+pub(crate) fn each<T: Copy + Default, const N: usize>(of: &mut dyn FnMut(usize) -> T) -> [T; N] {
+    let mut each = [T::default(); N];
+    for (at, to) in each.iter_mut().enumerate() {
+        *to = of(at);
+    }
+    each
+}
+
+/// Components without derivatives.
+pub(crate) fn numbers<T: Real, const N: usize>(x: &[T; N]) -> [f64; N] {
+    let mut numbers = [0.0; N];
+    for (to, x) in numbers.iter_mut().zip(x) {
+        *to = x.to_f64();
+    }
+    numbers
+}
+
 /// Every component becomes `value`.
 pub(crate) fn fill<T: Real>(x: &mut [T], value: T) {
     map(x, |_| value);

@@ -52,7 +52,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
             growth = growth + dynamics.correction(t_next, &Beside { q: &to.q, v: None }, there);
             subtract(&mut to.q, there);
             let positions = dynamics.equations().info().of_bodies(to.q.as_ref());
-            let [size, of_positions] = [there.as_ref(), positions].map(|x| vectors::largest(x).1);
+            let (size, of_positions) = (vectors::largest(there.as_ref()).1, vectors::largest(positions).1);
             if size <= small * (D::Real::from_f64(1.0) + of_positions) {
                 break;
             }

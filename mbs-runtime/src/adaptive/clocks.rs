@@ -6,8 +6,8 @@
 use super::events::{Happened, MOST_EVENTS, Watched};
 use super::gaps::bits;
 use super::{Adaptive, AdaptiveScheme, Dynamics};
-use crate::Error;
 use crate::samples::{is_sample, next_sample, sample_at};
+use crate::{Error, vectors};
 
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// The first time behind the present one at which a step ends: at a corner of the accelerations, or at a sample.
@@ -67,7 +67,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// The watched values of the present state.
     fn watched_now(&mut self, watched: &mut Watched<'_, D>) -> [D::Real; MOST_EVENTS] {
         let Self { dynamics, inputs, now, all, .. } = self;
-        core::array::from_fn(|index| match index < watched.count {
+        vectors::each(&mut |index| match index < watched.count {
             true => watched.value(index, (&*dynamics, &*inputs), now, all),
             false => D::Real::default(),
         })

@@ -77,9 +77,10 @@ fn first_fall<T: Real>(whole: Piece<T>, left: &mut u32, mut value: impl FnMut(T)
         let [near, far] = [value(times[1]), value(times[3])];
         let samples = [a, near, m, far, b];
         // with values at shares that no oscillation has a period of
-        let beside = ASKEW.map(|share| (share, value(half + T::from_f64(0.5 * share) * (to - from))));
-        let [(_, x), (_, y)] = beside;
-        let checks = [(-0.5, near), (0.5, far)].into_iter().chain(beside);
+        let [before, behind] = ASKEW;
+        let mut beside = |share: f64| value(half + T::from_f64(0.5 * share) * (to - from));
+        let (x, y) = (beside(before), beside(behind));
+        let checks = [(-0.5, near), (0.5, far), (before, x), (behind, y)].into_iter();
         let off = checks.map(|(share, found)| (found - parabola([a, m, b], share)).abs());
         let off = UNSEEN * off.fold(0.0, f64::max);
         let largest = samples.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));

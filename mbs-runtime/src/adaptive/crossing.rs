@@ -143,8 +143,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         watched: &mut Watched<'_, D>,
     ) -> bool {
         let share = D::Real::from_f64(RATE) * (self.now.t - self.before.t);
-        let [came, goes] = [true, false].map(|is_arrival| {
-            let [behind, ahead] = [-share, share].map(|dt| {
+        let mut rate = |is_arrival: bool| {
+            let mut value = |dt: D::Real| {
                 let Self { arrival, before, next, dynamics, inputs, all, .. } = self;
                 let from = if is_arrival { arrival } else { before };
                 next.t = from.t + dt;
@@ -153,10 +153,13 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                     vectors::add_scaled(to.as_mut(), dt, rate.as_ref());
                 }
                 watched.value(index, (dynamics, inputs), next, all)
-            });
-            let rate = ahead - behind;
+            };
+            let behind = value(-share);
+            let rate = value(share) - behind;
             if is_rising { rate } else { -rate }
-        });
+        };
+        let came = rate(true);
+        let goes = rate(false);
         goes <= D::Real::from_f64(STILL) * came + rounding
     }
 
@@ -286,7 +289,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         for _ in 0..SECTIONS {
             let width = golden * (high - low);
             let [left, right] = [high - width, low + width];
-            let [of_left, of_right] = [left, right].map(|t| distance(self, t));
+            let (of_left, of_right) = (distance(self, left), distance(self, right));
             // what has crossed zero is enough
             if let Some((t, found)) =
                 [(left, of_left), (right, of_right)].into_iter().find(|(_, d)| *d < zero)

@@ -75,14 +75,14 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let value = watched.value(index, (dynamics, inputs), next, all);
         // ġ is the derivative along the motion, for which the first partial has room, beside that of parameters and inputs
         let along = |x: D::Real, rate: D::Real| x.without_partials().plus_partial(0, rate.to_f64());
-        let [rate, of_parameters] = [1.0, 0.0].map(|speed| {
+        let mut rate_at = |speed: f64| {
             let along = |x: D::Real, rate: D::Real| along(x, D::Real::from_f64(speed) * rate);
             vectors::zip_map(next.q.as_mut(), next.v.as_ref(), along);
             vectors::zip_map(next.v.as_mut(), next.a.as_ref(), along);
             next.t = along(t, D::Real::from_f64(1.0));
             watched.value(index, (&*dynamics, &*inputs), next, all).partial(0)
-        });
-        let rate = rate - of_parameters;
+        };
+        let rate = rate_at(1.0) - rate_at(0.0);
         (0..D::Real::PARTIALS).fold(t, |t, at| {
             let change = value.partial(at);
             if change == 0.0 { t } else { t.plus_partial(at, -change / rate) }

@@ -114,7 +114,7 @@ impl<D: Dynamics> Jump<'_, D> {
 
     /// Σ |∂g/∂q| of every gap.
     pub fn slopes(&self) -> Each<f64> {
-        let slopes = self.contacts(|contacts| core::array::from_fn(|stop| contacts.slope(stop)));
+        let slopes = self.contacts(|contacts| vectors::each(&mut |stop| contacts.slope(stop)));
         slopes.unwrap_or([0.0; MOST_CONTACTS])
     }
 
@@ -122,10 +122,13 @@ impl<D: Dynamics> Jump<'_, D> {
     fn still(&self, accelerations: &Each<D::Real>, size: f64) -> Each<f64> {
         let energy = self.dynamics.equations().kinetic_energy(self.at()).to_f64().max(0.0);
         let none = [0.0; MOST_CONTACTS];
-        let diagonal = self.contacts(|contacts| {
-            core::array::from_fn(|stop| contacts.mobility(stop, stop).to_f64().max(0.0))
+        let still = self.contacts(|contacts| {
+            vectors::each(&mut |stop| {
+                let mobility = contacts.mobility(stop, stop).to_f64().max(0.0);
+                STILL * Real::sqrt(2.0 * energy * mobility)
+            })
         });
-        let mut still = diagonal.unwrap_or(none).map(|mobility| STILL * Real::sqrt(2.0 * energy * mobility));
+        let mut still = still.unwrap_or(none);
         // by the largest acceleration: between bodies that fall together there is none
         let slopes = self.slopes();
         let of_coordinates = accelerations
@@ -148,7 +151,8 @@ impl<D: Dynamics> Jump<'_, D> {
     /// The stops and frictions of a set that move at more than the error of a step.
     pub fn hit(&mut self, held: u32, size: f64) -> u32 {
         let gaps = self.gaps();
-        let still = self.still(&gaps.acceleration, size).map(|still| JUMPS * still);
+        let mut still = self.still(&gaps.acceleration, size);
+        still.iter_mut().for_each(|still| *still *= JUMPS);
         those(self.dynamics.equations().info().contacts(), |stop| {
             has(held, stop) && !is_still(&gaps.rate, &still, stop)
         })
@@ -203,7 +207,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let (info, bounds) = (self.dynamics.equations().info(), Bounds::of(self.dynamics.equations()));
         let moves = |row: usize| !is_still(&gaps.rate, &still, row);
         let directions =
-            core::array::from_fn(|row| if moves(row) { direction(info, self.inputs, row) } else { 0.0 });
+            vectors::each(&mut |row| if moves(row) { direction(info, self.inputs, row) } else { 0.0 });
         let rates = &gaps.acceleration;
         let rest = Hit { info, closed: resting, bound: locked, directions, bounds: &bounds, rates };
         let solved = self.contacts(|contacts| Some(contacts.rates(&rest.with(&contacts, rates)?.impulses)));
@@ -309,7 +313,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let law = |stop: usize, which: usize| laws.get(2 * stop + which).copied().unwrap_or_default();
         let (lowest, slopes) = (stopping.lowest.max(LOW * self.size()), self.slopes());
         loop {
-            let b: Each<D::Real> = core::array::from_fn(|stop| {
+            let b: Each<D::Real> = vectors::each(&mut |stop| {
                 let rate = rates.get(stop).copied().unwrap_or_default();
                 let is_thrown = rate.to_f64() < 0.0 && !has(settled, stop);
                 if is_thrown { rate + law(stop, 0) * rate } else { rate }
@@ -363,7 +367,7 @@ pub(super) fn is_still<T: Real>(rates: &Each<T>, still: &Each<f64>, stop: usize)
 
 /// The time in s until a gap that opens is closed again, and its largest value until then, by its second derivative.
 fn flight<T: Real>(gaps: &Gaps<T>, stop: usize) -> Option<[f64; 2]> {
-    let [rate, acceleration] = [&gaps.rate, &gaps.acceleration].map(|of| number(of, stop));
+    let (rate, acceleration) = (number(&gaps.rate, stop), number(&gaps.acceleration, stop));
     (rate > 0.0 && acceleration < 0.0)
         .then(|| [-2.0 * rate / acceleration, -0.5 * rate * rate / acceleration])
 }

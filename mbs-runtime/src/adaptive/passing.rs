@@ -93,9 +93,10 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let switches = self.dynamics.equations().switching();
         let h = (self.next.t - self.now.t).to_f64();
         let held = self.held(&self.now, h).max(self.held(&self.next, h)) * h;
-        let [first, middle, last] = RATES.map(|share| self.look(share));
+        let [at_first, at_middle, at_last] = RATES;
+        let (first, middle, last) = (self.look(at_first), self.look(at_middle), self.look(at_last));
         let mut arrived: [bool; MOST_SWITCHES] =
-            core::array::from_fn(|index| starts.get(index) == ends.get(index));
+            vectors::each(&mut |index| starts.get(index) == ends.get(index));
         let (mut share, mut here, mut bends) = (0.0, first, [0.0; MOST_SWITCHES]);
         bend(&mut bends, [&first, &middle], RATES[1] - RATES[0]);
         bend(&mut bends, [&middle, &last], RATES[2] - RATES[1]);
@@ -140,7 +141,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// The values of all switches at a share of the step, and their rates.
     fn look(&mut self, share: f64) -> [[f64; MOST_SWITCHES]; 2] {
-        let [here, near] = [share, share + SLOPE].map(|share| self.values_at(share));
+        let (here, near) = (self.values_at(share), self.values_at(share + SLOPE));
         let mut rates = here;
         for (rate, near) in rates.iter_mut().zip(near) {
             *rate = (near - *rate) / SLOPE;

@@ -15,7 +15,7 @@ use crate::modes::{self, Judging};
 use crate::pressing::held;
 use crate::rubbing::all_rubbing;
 use crate::sticking::{all_frictions, direction, frictions, set};
-use crate::{Error, Real};
+use crate::{Error, Real, vectors};
 
 /// A start is behind a stop by more than this share of the size of the coordinates.
 const BEHIND: f64 = 1e-9;
@@ -122,9 +122,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.stopping.size = self.stopping.size.max(size);
         let size = BEHIND * self.stopping.size;
         let slopes = self.with_jump(|jump| jump.slopes());
-        let allowed = slopes.map(|slope| size * slope);
+        let allowed: Each<f64> = vectors::each(&mut |stop| size * number(&slopes, stop));
         let behind = self.with_jump(|jump| {
-            let gaps = jump.gaps().gap.map(Real::to_f64);
+            let gaps = vectors::numbers(&jump.gaps().gap);
             gaps.into_iter()
                 .zip(allowed)
                 .enumerate()
@@ -136,7 +136,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             return Err(Error::Behind { t, stop, gap });
         }
         let touched = self.with_jump(|jump| {
-            let gaps = jump.gaps().gap.map(Real::to_f64);
+            let gaps = vectors::numbers(&jump.gaps().gap);
             those(stops.len(), |stop| gaps.get(stop) <= allowed.get(stop))
         });
         // frictions stick, and modes hold

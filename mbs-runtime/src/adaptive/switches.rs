@@ -55,7 +55,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if pieces != before {
             self.control.next = next.max(self.switching.calm);
         }
-        let passed = core::array::from_fn(|index| pieces.get(index) != before.get(index));
+        let passed = vectors::each(&mut |index| pieces.get(index) != before.get(index));
         if was_rejected { self.look_ahead(values, passed) } else { Ok(()) }
     }
 
@@ -98,7 +98,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// The rate of a value up to which it is held, but for rounding; in steps that may be as long as one.
     pub(super) fn held(&self, now: &Moment<D::Real, D::States>, step: f64) -> f64 {
-        let [q, v, a] = [&now.q, &now.v, &now.a].map(|x| vectors::largest(x.as_ref()).1.to_f64());
+        let largest = |x: &D::States| vectors::largest(x.as_ref()).1.to_f64();
+        let (q, v, a) = (largest(&now.q), largest(&now.v), largest(&now.a));
         let rounding = ROUNDINGS * D::Real::EPSILON.to_f64() * q.max(v).max(a);
         (HELD * v.max(a)).max(rounding / (RATE * self.effort.longest.max(step)))
     }
@@ -108,10 +109,11 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     fn leads_back(&mut self, now: &Moment<D::Real, D::States>, index: usize, rate: f64, until: f64) -> bool {
         let half = 0.5 * until;
         let behind = 2.0 * until + BEHIND * self.effort.longest;
-        let [here, there] = [half, behind].map(|dt| {
+        let mut rate_after = |dt: f64| {
             let mut moment = moved(now, dt);
             self.rates(&mut moment).get(index).copied().unwrap_or(f64::NAN)
-        });
+        };
+        let (here, there) = (rate_after(half), rate_after(behind));
         let expected = if half > 0.0 { rate + (here - rate) * behind / half } else { rate };
         expected * rate > 0.0 && there * rate < 0.0
     }
@@ -122,9 +124,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let Moment { t, q, v, a } = &mut *moment;
         dynamics.acceleration(*t, q, v, inputs, a);
         let dt = RATE * effort.longest;
-        let [ahead, behind] =
-            [dt, -dt].map(|dt| switches_at((&*dynamics, &*inputs), &moved(moment, dt), all));
-        core::array::from_fn(|index| match (ahead.get(index), behind.get(index)) {
+        let mut values = |dt: f64| switches_at((&*dynamics, &*inputs), &moved(moment, dt), all);
+        let (ahead, behind) = (values(dt), values(-dt));
+        vectors::each(&mut |index| match (ahead.get(index), behind.get(index)) {
             (Some(ahead), Some(behind)) => (ahead - behind) / (2.0 * dt),
             _ => f64::NAN,
         })
@@ -142,9 +144,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let values = switches_at((&*dynamics, &*inputs), next, all);
         let pieces = self.switching.pieces.unwrap_or_else(|| {
             // a value that begins at a knot passes none there
-            let [begins, ends] = [switches_at((&*dynamics, &*inputs), now, all), values]
-                .map(|values| pieces_of(switches, values));
-            core::array::from_fn(|index| match (begins.get(index), ends.get(index)) {
+            let begins = pieces_of(switches, switches_at((&*dynamics, &*inputs), now, all));
+            let ends = pieces_of(switches, values);
+            vectors::each(&mut |index| match (begins.get(index), ends.get(index)) {
                 (Some(begin), Some(end)) if is_knot(*begin) => *end,
                 (begin, _) => begin.copied().unwrap_or_default(),
             })
@@ -201,7 +203,7 @@ pub(super) fn switches_at<D: Dynamics>(
     let mut values = [D::Real::from_f64(f64::NAN); MOST_SWITCHES];
     let equations = dynamics.described();
     dynamics.with_inputs(&mut inputs.clone(), |inputs| equations.switches(at, inputs, &mut values));
-    values.map(Real::to_f64)
+    vectors::numbers(&values)
 }
 
 /// A state some time later, with the velocities and accelerations that it has.

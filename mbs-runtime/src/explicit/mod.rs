@@ -249,32 +249,35 @@ pub(crate) fn sums<E: Element, V: AsRef<[E]>>(
     // columns of numbers are wide enough by themselves
     if size_of::<E>() <= size_of::<f64>() {
         while at + 8 <= count {
-            block::<8, E, V>(row, slopes, at, &mut put);
+            hand_over(block::<8, E, V>(row, slopes, at), at, &mut put);
             at += 8;
         }
         if at + 4 <= count {
-            block::<4, E, V>(row, slopes, at, &mut put);
+            hand_over(block::<4, E, V>(row, slopes, at), at, &mut put);
             at += 4;
         }
         if at + 2 <= count {
-            block::<2, E, V>(row, slopes, at, &mut put);
+            hand_over(block::<2, E, V>(row, slopes, at), at, &mut put);
             at += 2;
         }
     }
     while at < count {
-        block::<1, E, V>(row, slopes, at, &mut put);
+        hand_over(block::<1, E, V>(row, slopes, at), at, &mut put);
         at += 1;
+    }
+}
+
+/// Hands components over, from the one at `at` on.
+#[inline(always)]
+fn hand_over<const N: usize, E>(sums: [E; N], at: usize, put: &mut impl FnMut(usize, E)) {
+    for (offset, sum) in sums.into_iter().enumerate() {
+        put(at + offset, sum);
     }
 }
 
 /// The sums of `N` components from the one at `at` on.
 #[inline(always)]
-fn block<const N: usize, E: Element, V: AsRef<[E]>>(
-    row: &Row,
-    slopes: &[V],
-    at: usize,
-    put: &mut impl FnMut(usize, E),
-) {
+fn block<const N: usize, E: Element, V: AsRef<[E]>>(row: &Row, slopes: &[V], at: usize) -> [E; N] {
     let mut terms = row.weights.iter().zip(slopes).filter_map(|(&weight, slope)| {
         let slope = slope.as_ref().get(at..)?.first_chunk::<N>()?;
         (weight != 0.0).then_some((E::constant(weight), slope))
@@ -290,7 +293,5 @@ fn block<const N: usize, E: Element, V: AsRef<[E]>>(
             *sum = sum.plus(weight.times(*slope));
         }
     }
-    for (offset, sum) in sums.into_iter().enumerate() {
-        put(at + offset, sum);
-    }
+    sums
 }
