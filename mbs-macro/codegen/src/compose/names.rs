@@ -78,6 +78,7 @@ pub fn declared(item: &Item) -> Vec<String> {
         | ItemKind::Set(_)
         | ItemKind::Start { .. }
         | ItemKind::Require { .. }
+        | ItemKind::Size { .. }
         | ItemKind::Assembly { .. }
         | ItemKind::Instance { .. } => Vec::new(),
     }
@@ -157,6 +158,10 @@ pub fn visit(item: &mut Item, visit: &mut dyn FnMut(Mention<'_>)) {
         ItemKind::Require { of, condition } => {
             of.iter_mut().for_each(|name| visit(Mention::Name(name)));
             in_condition(condition, visit);
+        }
+        ItemKind::Size { of, value, .. } => {
+            visit(Mention::Name(of));
+            in_formula(value, visit);
         }
         ItemKind::Gravity { value, .. } => in_vector(value, visit),
         ItemKind::Step { value, .. } => in_formula(value, visit),

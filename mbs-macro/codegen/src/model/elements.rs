@@ -17,6 +17,9 @@ use crate::mechanics::joints::Holds;
 use crate::mechanics::{Outline, Placed};
 use crate::syntax::{Attachment, Element, ElementProperty, Formula, FormulaKind, Load};
 
+/// The help for a clearance whose value is 0, but which is not the number.
+const NO_PLAY: &str = "it has to be positive; the joint without play is `clearance = 0`, a number";
+
 /// An element with its places found and its properties read.
 struct Resolved {
     first: Placed,
@@ -197,7 +200,7 @@ impl Resolver<'_> {
                 property: row.name,
                 owner: element.name.to_string(),
                 span: property.name.span(),
-                zero_help: None,
+                zero_help: (row.name == "clearance").then_some(NO_PLAY),
             });
         }
         Some(values)

@@ -10,6 +10,7 @@ use super::names::{Place, duplicate};
 use super::resolver::Resolver;
 use super::{Constraint, Direction, Output, Requirement, Source};
 use crate::diagnostics::{Diagnostic, described, nearest};
+use crate::quantity::Comparison;
 use crate::syntax::{self, Formula, FormulaKind, Item, ItemKind, Role};
 
 impl<'a> Resolver<'a> {
@@ -146,6 +147,7 @@ impl<'a> Resolver<'a> {
             ItemKind::Energy { name, role, value } => self.resolve_energy(name, *role, value),
             ItemKind::Element(element) => self.resolve_element(element),
             ItemKind::Require { of, condition } => self.require(condition, of.as_ref()),
+            ItemKind::Size { word, of, value } => self.require_size(word, of, value),
             ItemKind::Binding { name, value, default } => self.check_binding(name, value, default),
             ItemKind::State { name, value, .. } => self.resolve_state(name, value.as_ref()),
             ItemKind::Particle { name, at, properties } => self.resolve_particle(name, at, properties),
@@ -216,6 +218,22 @@ impl<'a> Resolver<'a> {
             comparison: condition.comparison,
             text: format!("`{}` has to hold", condition.text),
             span: condition.comparison_span,
+        });
+    }
+
+    /// Requires that a length is positive.
+    fn require_size(&mut self, word: &str, of: &Ident, size: &Formula) {
+        let asked = (&*format!("the {word} of `{of}`"), Dimension::LENGTH);
+        let Some(value) = self.scope.formula_of(size, Place::Property, asked, &mut self.errors) else {
+            return;
+        };
+        self.scope.requirements.push(Requirement {
+            name: format!("{word} of {of}"),
+            value,
+            difference: value,
+            comparison: Comparison::Greater,
+            text: "it has to be positive".into(),
+            span: size.span,
         });
     }
 

@@ -209,11 +209,11 @@ impl Loose {
                 "give it a `stiffness` or a `modulus` for a contact that takes time",
             ));
         }
-        let mut items = vec![self.positive(&self.clearance)?];
+        let mut items = vec![self.positive(CLEARANCE, &self.clearance)?];
         match &self.along {
             Some(along) => {
                 for size in ["length", "height"] {
-                    items.push(self.positive(self.size(size, example)?)?);
+                    items.push(self.positive(size, self.size(size, example)?)?);
                 }
                 items.extend(self.corners(along, example)?);
             }
@@ -222,10 +222,8 @@ impl Loose {
         Ok(items)
     }
 
-    fn positive(&self, size: &TokenStream) -> Result<ItemKind> {
-        let condition = |input: ParseStream<'_>| condition(input, "");
-        let condition = condition.parse2(spanned!(self, #size > 0))?;
-        Ok(ItemKind::Require { of: None, condition })
+    fn positive(&self, word: &'static str, size: &TokenStream) -> Result<ItemKind> {
+        Ok(ItemKind::Size { word, of: self.name.clone(), value: syn::parse2(size.clone())? })
     }
 
     /// (c² − d²)/(2c) of the distance d, which is smooth where d is 0, and c − d where it closes.

@@ -101,6 +101,8 @@ pub enum ItemKind {
     Rate { prefix: Vec<Ident>, state: Ident, value: Formula },
     /// `require l1 < l2;`, or the condition of a parameter that is bound.
     Require { of: Option<Ident>, condition: Condition },
+    /// A size of a joint with play, such as its `clearance`, which has to be positive.
+    Size { word: &'static str, of: Ident, value: Formula },
     /// `assembly Leg { … }`; gone after composition.
     Assembly { name: Ident, items: Vec<Item> },
     /// `instance left: Leg { phase = 120 [deg]; }`; gone after composition.
