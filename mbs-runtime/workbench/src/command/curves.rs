@@ -163,7 +163,6 @@ pub(super) fn compared(title: &str, runs: &[(String, Recording)], choice: &Choic
 mod tests {
     use super::*;
     use crate::figure::Content;
-    use crate::{Settings, model};
 
     mbs_runtime::mechanism! {
         /// A chain of weights.
@@ -184,9 +183,13 @@ mod tests {
         }
     }
 
+    /// Columns of two numbers each, all of them different.
     fn recording() -> Recording {
-        let settings = Settings { end: 2e-3, ..Settings::default() };
-        model::of::<Chain>().simulate(&settings, &mut |_, _| ()).unwrap()
+        let mut recording = Recording::empty(<Chain as mbs_runtime::Mechanism>::INFO);
+        for (at, column) in recording.columns.iter_mut().enumerate() {
+            column.values = vec![at as f64, at as f64 + 0.5];
+        }
+        recording
     }
 
     fn choice(columns: &[&str], x: Option<&str>) -> Choice {
@@ -211,8 +214,6 @@ mod tests {
         let shown = recording.column("pull").unwrap();
         assert_eq!(shown.unit, "kN");
         assert_eq!(curves[0].points[1][1], shown.values[1]);
-        let si = recording.column("lambda(rod_1)").unwrap();
-        assert_eq!(si.values[1] / 1000.0, shown.values[1]);
         assert!(figure.svg().unwrap().contains("kN)"));
     }
 

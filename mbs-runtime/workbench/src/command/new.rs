@@ -169,8 +169,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("my.mbs");
         write_declaration(&path).unwrap();
-        let stepper = crate::declarations::read(&path, None).unwrap();
-        assert_eq!(stepper.info(), <template::Stepper as mbs_runtime::Mechanism>::INFO);
+        let stepper = mbs_live::Text::read(&path).unwrap().compile().unwrap();
+        assert_eq!(stepper.declared_info(), <template::Stepper as mbs_runtime::Mechanism>::INFO);
         let again = write_declaration(&path).unwrap_err().to_string();
         assert!(again.contains("cannot create") && again.contains("exists"), "{again}");
         assert!(write_declaration(Path::new("my.txt")).unwrap_err().to_string().contains("ends in .mbs"));

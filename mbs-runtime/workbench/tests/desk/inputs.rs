@@ -1,6 +1,5 @@
 //! Inputs from a table are functions of time: whatever the step and the method, every stage sees the inputs of its
 //! own time, so that a method keeps its order.
-#![allow(clippy::unwrap_used, reason = "a test says by panicking what is wrong")]
 
 use mbs_runtime::{
     DOP853, HEUN, Mechanism, RATTLE, RATTLE4, RK4, Stabilization, TRBDF2, Tableau, Tolerances,
