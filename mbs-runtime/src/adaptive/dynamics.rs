@@ -4,7 +4,7 @@
 //!
 //! * every `Mechanism`, with arrays for vectors and with inlined functions;
 //! * a text (`Prepared` of `mbs-live`), with vectors on the heap;
-//! * what a type or a text is when both are forgotten (`adaptive.rs` of the workbench), so that these runs are
+//! * what a type or a text is when both are forgotten (`erased.rs` of the workbench), so that these runs are
 //!   compiled once for all of them.
 
 use crate::equations::{At, Described, Equations};

@@ -53,6 +53,7 @@ mod derivation;
 mod digits;
 mod doubt;
 mod energy;
+mod erased;
 mod error;
 #[cfg(feature = "desk")]
 pub mod figure;
@@ -78,7 +79,6 @@ mod models;
 mod notes;
 #[cfg(feature = "desk")]
 mod npz;
-mod of_type;
 mod operating;
 pub mod quantity;
 mod recording;

@@ -11,7 +11,8 @@ use mbs_runtime::{Derivation, Error, Explicit, Info, Sketch, Stabilization, Syst
 use rayon::prelude::*;
 
 use crate::Model;
-use crate::adaptive::{self, Erased};
+use crate::adaptive;
+use crate::erased::Erased;
 use crate::members::lanes::{Batch, InLanes};
 use crate::members::{Extent, Member, extents};
 use crate::settings::{Settings, Start, StartKind, StartState};

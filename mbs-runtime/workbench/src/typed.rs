@@ -10,7 +10,8 @@ use mbs_runtime::{
 };
 
 use crate::Model;
-use crate::adaptive::{self, Erased};
+use crate::adaptive;
+use crate::erased::Erased;
 use crate::members::lanes::{self, InLanes};
 use crate::settings::{Settings, Start};
 use crate::simulated::{components, simulation};
