@@ -97,14 +97,16 @@ pub fn strike<T: Real>(
     inputs: &mut [T],
 ) -> Result<bool, Error> {
     let Changes { still, rows, q: of_q, v: of_v } = changes;
-    // a stop may throw back what a condition has let pass
     let judging = Judging { off: modes::OFF, room: [&mut *of_q, &mut *rows] };
     let (found, _) = due(equations, At { t, q, v }, inputs, judging, false);
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
-    let is_struck = strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
+    let (is_struck, is_impact) =
+        strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     let has_halted = halt(equations, (h, own), (pushed.set, before), (t, [&mut *q, &mut *v]), inputs)?;
     let own = Changes { still, rows, q: of_q, v: of_v };
+    // an impact throws back what a condition has let pass; what modes, rests and frictions lead back has not passed it
+    let found = if is_impact { found } else { 0 };
     let passes = pass_and_engage(equations, (h, own), found, (t, [q, v]), inputs)?;
     Ok(has_halted || is_struck || passes)
 }
@@ -139,34 +141,32 @@ fn pass_and_engage<T: Real>(
             }
         }
         // what modes have let go may slide, and what they hold does not
-        let (info, resting) = (equations.info(), held(equations, inputs) & all_stops(equations.info()));
+        let resting = held(equations, inputs) & all_stops(equations.info());
         let still = touching::slide(equations, At { t, q, v }, still, inputs);
         let undecided = Undecided { resting, still, breaking: 0 };
+        // velocities and forces change, and other conditions may begin
         decide(equations, At { t, q, v }, inputs, undecided, [&mut *of_q, &mut *rows])?;
-        // forces have changed, and conditions that see them may begin
-        if !info.sees_forces() {
-            return Ok(true);
-        }
     }
     Err(modes::endless(equations.info(), t.to_f64(), all))
 }
 
-/// The same without friction.
+/// The same without friction. True if anything has changed, and if that was an impact.
 fn strike_stops<T: Real>(
     equations: &dyn Equations<T>,
     (h, changes): (T, Changes<'_, T>),
     (pushed, before): (&Pushed<T>, At<'_, T>),
     (t, [q, v]): (T, [&mut [T]; 2]),
     inputs: &mut [T],
-) -> Result<bool, Error> {
+) -> Result<(bool, bool), Error> {
     let count = equations.info().stops.len();
     let (halves, locked) = (&pushed.halves, locked(equations.info(), inputs));
     let pushed = pushed.set & all_stops(equations.info());
     let now = Gaps::of(equations, At { t, q, v }, changes.still);
+    has_gaps(equations, t, &now.gap)?;
     let closed = pushed | those(count, |stop| number(&now.gap, stop) <= 0.0);
     if closed == 0 {
         note(equations, 0, &[T::ZERO; MOST_CONTACTS], inputs);
-        return Ok(false);
+        return Ok((false, false));
     }
     let gap_before = Gaps::of(equations, before, changes.still).gap;
     equations.free_reactions(At { t, q, v }, inputs, changes.q, changes.rows);
@@ -217,7 +217,7 @@ fn strike_stops<T: Real>(
         if answer.is_impact && more > T::ZERO { more } else { T::ZERO }
     });
     note(equations, answer.held, &noted, inputs);
-    let Answer { impulses, directions, .. } = answer;
+    let Answer { impulses, directions, is_impact, .. } = answer;
     let struck = Struck {
         impulses,
         held: answer.held,
@@ -225,7 +225,22 @@ fn strike_stops<T: Real>(
         rubbed: rubbing::borne(info, closed | answer.held),
     };
     rubbing::note(info, inputs, &struck);
-    Ok(true)
+    Ok((true, is_impact))
+}
+
+/// Refuses a gap that has no value, which nobody would see close.
+///
+/// # Errors
+/// [`Error::Undefined`].
+pub(crate) fn has_gaps<T: Real>(equations: &dyn Equations<T>, t: T, gaps: &Each<T>) -> Result<(), Error> {
+    let mut stops = equations.info().stops.iter().zip(gaps);
+    match stops.find(|(_, gap)| gap.to_f64().is_nan()) {
+        Some((stop, gap)) => {
+            let (t, value) = (t.to_f64(), gap.to_f64());
+            Err(Error::Undefined { t, what: "the gap of stop", name: stop.name, value })
+        }
+        None => Ok(()),
+    }
 }
 
 /// The change of the rate of each gap in a step by the force at its own stop; `change` is that of all rates without stops.

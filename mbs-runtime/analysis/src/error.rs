@@ -34,6 +34,15 @@ pub enum Error {
         /// The name of the mechanism.
         mechanism: &'static str,
     },
+    /// A stop that would have to pull where a mechanism rests on it.
+    #[error(
+        "nothing holds this mechanism at the stop `{stop}`: forces lead it away, and a stop does not pull; \
+         start the search where it may rest, or change its forces"
+    )]
+    Pulls {
+        /// The name of the stop.
+        stop: &'static str,
+    },
     /// An analysis that does not know states of a declaration's own.
     #[error(
         "`{mechanism}` has a state of its own (`{state}`), and {what} knows positions and velocities alone; \

@@ -90,7 +90,7 @@ pub struct Found<R> {
 /// are in every set.
 ///
 /// # Errors
-/// Those of `look` without stops; [`Behind`](mbs_runtime::Error::Behind).
+/// Those of `look` without stops; [`Behind`](mbs_runtime::Error::Behind), [`Error::Pulls`].
 pub fn complementary<R>(
     mechanism: &dyn Described<f64>,
     (t, from, held): (f64, &[f64], &[usize]),
@@ -157,7 +157,8 @@ fn judged<R>(
     let pulled = (0..stops.len()).max_by(|a, b| of_stops[*a].total_cmp(&of_stops[*b]));
     if let Some(at) = pulled.filter(|at| of_stops[*at] > PULLS * largest) {
         set.remove(&stops[at]);
-        return Ok(Verdict::Leads(set, behind(stops[at])));
+        let stop = mechanism.info().stops[stops[at]].name;
+        return Ok(Verdict::Leads(set, Error::Pulls { stop }));
     }
     let others = (0..gaps.len()).filter(|stop| !stops.contains(stop));
     let worst = others.min_by(|a, b| gaps[*a].total_cmp(&gaps[*b]));

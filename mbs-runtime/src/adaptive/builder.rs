@@ -147,7 +147,7 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
         if !goes_on {
             run.touch()?;
         }
-        run.sample(false);
+        run.sample_at_start();
         run.solve()?;
         run.before = run.now.clone();
         if run.tolerances.first_step.is_none() {

@@ -23,11 +23,26 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         is_sample(self.dynamics.equations(), self.now.t, self.sampled, is_exact)
     }
 
-    /// Takes the samples that are due at the present time, once.
-    pub(super) fn sample(&mut self, is_exact: bool) {
+    /// Takes the samples that are due at the present time, once, and makes the jumps of the modes that they enter.
+    ///
+    /// # Errors
+    /// Those of the jump.
+    pub(super) fn sample(&mut self, is_exact: bool) -> Result<(), Error> {
         if !self.is_due(is_exact) {
-            return;
+            return Ok(());
         }
+        self.take_samples();
+        self.look_at_rests()
+    }
+
+    /// Takes the samples of a start, if some are due.
+    pub(super) fn sample_at_start(&mut self) {
+        if self.is_due(false) {
+            self.take_samples();
+        }
+    }
+
+    fn take_samples(&mut self) {
         // what lies behind was computed with the memories of before
         self.inputs_mut();
         self.with_memories(|equations, at, inputs, _| sample_at(equations, at, inputs));
@@ -49,7 +64,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         let before = self.watched_now(watched);
         self.jump()?;
-        self.sample(is_exact);
+        self.sample(is_exact)?;
         let after = self.watched_now(watched);
         for (index, bit) in bits(watched.count) {
             let direction = (watched.direction)(index);

@@ -71,7 +71,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             }
         }
         let is_shorter = self.is_shorter();
-        let Some((first, which)) = first.filter(|_| !is_shorter) else { return Ok(()) };
+        let Some((first, which)) = first.filter(|_| !is_shorter) else { return self.check_gaps() };
         let mut happened = self.happened;
         for (index, bit) in watched.bits(&self.dynamics) {
             if let Some(bracket) = self.bracket(index, watched)

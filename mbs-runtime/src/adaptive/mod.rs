@@ -165,8 +165,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.step_to(D::Real::from_f64(f64::INFINITY))?;
         self.look_for_stops()?;
         self.jump()?;
-        self.sample(true);
-        Ok(())
+        self.sample(true)
     }
 
     /// Takes steps until `end` seconds, the last one of which ends there. It does not change how
@@ -184,15 +183,14 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             self.look_for_stops()?;
         }
         self.jump()?;
-        self.sample(false);
-        Ok(())
+        self.sample(false)
     }
 
     /// A step that ends at `limit` at the latest, and at the first corner of the accelerations. Where it is
     /// cut short, the next one is not.
     fn step_to(&mut self, limit: D::Real) -> Result<(), Error> {
         self.jump()?;
-        self.sample(true);
+        self.sample(true)?;
         self.look_at_rests()?;
         let (next, rejected) = (self.control.next, self.effort.rejected);
         let corner = self.next_corner();

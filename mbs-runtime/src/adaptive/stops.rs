@@ -8,10 +8,11 @@ use super::events::{Happened, Watched};
 use super::gaps::{Stopping, among, of_run, stop_in, watched_of};
 use super::jump::{CLOSED, Jump, Outcome};
 use super::{Adaptive, AdaptiveScheme, Dynamics};
-use crate::contact::{Each, MOST_CONTACTS, bit, has, number, those};
+use crate::contact::{Each, Gaps, MOST_CONTACTS, bit, has, number, those};
 use crate::equations::{At, Equations};
 use crate::locks::placed;
 use crate::modes::{self, Judging};
+use crate::moreau::has_gaps;
 use crate::pressing::held;
 use crate::rubbing::all_rubbing;
 use crate::sticking::{all_frictions, direction, frictions, set};
@@ -144,6 +145,24 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if touched == 0 && !may_hold { Ok(()) } else { self.jump_once(touched, false) }
     }
 
+    /// Refuses the end of a step where a gap has no value.
+    ///
+    /// # Errors
+    /// [`Error::Undefined`].
+    pub(super) fn check_gaps(&mut self) -> Result<(), Error> {
+        if self.dynamics.equations().info().stops.is_empty() {
+            return Ok(());
+        }
+        let Self { dynamics, now, all, .. } = self;
+        dynamics.complete(now.t, &now.q, &now.v, all);
+        let [q, v] = all;
+        let mut still = dynamics.declared_start().1;
+        vectors::fill(still.as_mut(), D::Real::default());
+        let at = At { t: now.t, q: q.as_ref(), v: v.as_ref() };
+        let gaps = Gaps::of(dynamics.equations(), at, still.as_ref());
+        has_gaps(dynamics.equations(), now.t, &gaps.gap)
+    }
+
     /// Goes back to where the last step began if that was too long to see what gaps do in it; true if it does.
     pub(super) fn is_shorter(&mut self) -> bool {
         let h = (self.now.t - self.before.t).to_f64();
@@ -265,12 +284,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     }
 
     /// The jump at stops that are reached: those whose gap has closed, and those that pull; and those that conditions ask for
-    /// by the forces behind it.
+    /// by the velocities and forces behind it.
     fn jump_at(&mut self, mut reached: u32, mut are_forces_known: bool) -> Result<(), Error> {
         let off = self.stopping.off;
         for _ in 0..=modes::IN_SEQUENCE {
             self.jump_once(reached, core::mem::replace(&mut are_forces_known, true))?;
-            if !self.dynamics.equations().info().sees_forces() {
+            if self.dynamics.equations().info().modes.transitions.is_empty() {
                 return Ok(());
             }
             let (due, _) = self.with_memories(|equations, at, inputs, room| {

@@ -166,6 +166,10 @@ fn what_cannot_be_told_is_refused() {
     let live = Text::declaration("hover.mbs", text).compile().unwrap();
     let error = equilibrium(&live, &Search::default()).unwrap_err();
     assert!(matches!(error, Error::NoEquilibrium { coordinate: "x", .. }), "{error}");
+    // Regression: at the stop it was told to be behind it, by 0
+    let from_stop = Search { from: Some(vec![0.0]), ..Search::default() };
+    let error = equilibrium(&live, &from_stop).unwrap_err();
+    assert!(matches!(error, Error::Pulls { stop: "end" }), "{error}");
     let loose = Search { inputs: Some(vec![-3.0, 0.0, 0.0]), from: Some(vec![0.0]), ..Search::default() };
     let rest = equilibrium(&live, &loose).unwrap();
     let error = linearize(&live, &OperatingPoint::from(&rest), &Ports::default()).map(|_| ()).unwrap_err();

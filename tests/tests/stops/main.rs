@@ -16,7 +16,7 @@ mod several;
 mod steps;
 mod sticking;
 
-use mbs_live::{Prepared, Text};
+use mbs_live::{Prepared, Run, Text};
 use mbs_runtime::{
     Adaptive, Dop853, Dual, Error, Mechanism, Real, Sampled, Simulation, System, Tolerances, mechanism,
 };
@@ -128,6 +128,24 @@ fn a_text_bounces_as_a_type() -> Result<(), Error> {
         assert_eq!(found[0].map(f64::to_bits), found[1].map(f64::to_bits), "{found:?}");
     }
     Ok(())
+}
+
+/// Regression: a gap that has no value behind the stop was never seen to close, and the body fell on.
+#[test]
+fn a_gap_without_a_value_ends_the_run() {
+    let text = "Fall {
+        dof = 1;
+        gravity = (0, -9.81) [m/s^2];
+        body ball (y) { mass = 1 [kg]; }
+        stop floor: sqrt(y) >= 0 { restitution = 0.5; }
+        start { y = 1 [m]; }
+    }";
+    let live = Text::declaration("fall.mbs", text).compile().expect("a mechanism");
+    let run = Adaptive::builder(Prepared::new(&live)).build().and_then(|mut run| run.advance_to(1.0));
+    let steps = Run::builder(&live, 1e-3).build().and_then(|mut run| run.advance(1000));
+    for error in [run, steps].map(|run| run.expect_err("an error")) {
+        assert!(matches!(error, Error::Undefined { what: "the gap of stop", name: "floor", .. }), "{error}");
+    }
 }
 
 /// A start behind a stop is none.

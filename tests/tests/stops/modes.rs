@@ -363,3 +363,59 @@ fn conditions_begin_at_their_limits() -> Result<(), Error> {
     assert!((run.inputs().third - 0.5).abs() < 1.5e-3, "{}", run.inputs().third);
     Ok(())
 }
+
+/// The inputs of a text after 1 s: to a tolerance, and in steps of 1 ms.
+fn inputs_after_a_second(text: &str) -> Result<[Vec<f64>; 2], Error> {
+    let live = Text::declaration("modes.mbs", text).compile().expect("a mechanism");
+    let mut to_tolerance = Adaptive::builder(mbs_live::Prepared::new(&live)).tolerances(TIGHT).build()?;
+    to_tolerance.advance_to(1.0)?;
+    let mut in_steps = Run::builder(&live, 1e-3).build()?;
+    in_steps.advance(1000)?;
+    let mut inputs = vec![0.0; to_tolerance.inputs().len()];
+    in_steps.inputs(&mut inputs);
+    Ok([to_tolerance.inputs().clone(), inputs])
+}
+
+/// Regression: to a tolerance a condition on a velocity was not looked at behind the impulse of a mode that a clock enters, or a
+/// condition of another value. The wheel throws the body back from 1 to −1 m/s at 0.5 s.
+#[test]
+fn conditions_see_the_velocities_behind_an_impulse() -> Result<(), Error> {
+    for enters in ["every 10 [s] offset 0.5 [s] { enter g; }", "when t > 0.5 [s] { enter g; }"] {
+        let text = format!(
+            "Thrown {{
+                dof = 2;
+                body a (x) {{ mass = 1 [kg]; }}
+                body w (phi) {{ mass = 0; inertia = 0.02 [kg*m^2]; }}
+                mode g {{ rate r: der(x) = 0.1 [m]*der(phi); }}
+                memory n [1] = 0;
+                {enters}
+                when der(x) < -0.5 [m/s] {{ set n = n + 1; leave g; }}
+                start {{ der(x) = 1 [m/s]; der(phi) = -20 [rad/s]; }}
+            }}"
+        );
+        for inputs in inputs_after_a_second(&text)? {
+            // the mode, then the memory
+            assert_eq!(inputs[..2], [0.0, 1.0], "{enters}");
+        }
+    }
+    Ok(())
+}
+
+/// Regression: in constant steps a condition on a velocity that leaves its own mode began twice. The end of a step has half of
+/// the impulse of a constraint before it is led back.
+#[test]
+fn a_mode_that_its_velocity_leaves_is_left_once() -> Result<(), Error> {
+    let text = "Left {
+        dof = 2;
+        body a (x) { mass = 1 [kg]; }
+        body w (phi) { mass = 0; inertia = 0.02 [kg*m^2]; }
+        force s on x = -3 [N];
+        mode g = 1 { rate r: der(x) = 0.1 [m]*der(phi); }
+        memory n [1] = 0;
+        when der(x) < -0.5 [m/s] { leave g; set n = n + 1; }
+    }";
+    for inputs in inputs_after_a_second(text)? {
+        assert_eq!(inputs[..2], [0.0, 1.0]);
+    }
+    Ok(())
+}

@@ -339,3 +339,48 @@ fn a_spinning_disc_rests_in_a_corner() -> Result<(), Error> {
     }
     Ok(())
 }
+
+/// Regression: in constant steps a foot that an impact at the other one turns around had the bound of friction of both
+/// directions, as if it turned within the step. Behind the impact both feet slide to the left, so that friction has taken
+/// μ (Λ₁ + Λ₂) of the momentum, but for what it takes in a step.
+#[test]
+fn an_impact_turns_a_foot_around() -> Result<(), Error> {
+    let text = "Falling {
+        dof = 3;
+        gravity = (0, -9.81) [m/s^2];
+        body b (x, y, phi) { mass = 1 [kg]; inertia = 0.04 [kg*m^2]; }
+        point l on b = (-0.3 [m], -0.2 [m]);
+        point r on b = (0.3 [m], -0.2 [m]);
+        stop left: b.l.y >= 0 [m] { restitution = 0; friction = 0.05; along = b.l.x; }
+        stop right: b.r.y >= 0 [m] { restitution = 0; friction = 0.05; along = b.r.x; }
+        start { phi = -0.3; y = 0.3 [m]*sin(0.3) + 0.2 [m]*cos(0.3); der(x) = -0.5 [m/s]; }
+    }";
+    let live = Text::declaration("falling.mbs", text).compile().expect("a mechanism");
+    let step = 1e-4;
+    let mut run = Run::builder(&live, step).build()?;
+    let inputs = live.declared_info().inputs;
+    let impulses = || (0..inputs.len()).filter(|at| inputs[*at].name.ends_with("_impulse"));
+    let (mut q, mut v, mut memories) = ([0.0; 3], [0.0; 3], vec![0.0; inputs.len()]);
+    let (mut before, mut both) = (0.0, 0.0);
+    while both == 0.0 {
+        run.state(&mut q, &mut v);
+        before = v[0];
+        run.step()?;
+        run.inputs(&mut memories);
+        both = impulses().map(|at| memories[at]).sum();
+    }
+    run.state(&mut q, &mut v);
+    assert!(v[0] < -0.4, "{v:?}");
+    let taken = v[0] - before;
+    assert!((taken - 0.05 * both).abs() < 2.0 * 0.05 * 9.81 * step, "{taken} {both}");
+    // where a run to a tolerance is, within what a step is
+    let to_tolerance = Adaptive::builder(Prepared::new(&live)).tolerances(TIGHT).build()?;
+    let mut to_tolerance = Sampled::new(to_tolerance, 0.4)?;
+    to_tolerance.step()?;
+    to_tolerance.state(&mut q, &mut v);
+    let expected = q[0];
+    run.advance(4000 - run.steps())?;
+    run.state(&mut q, &mut v);
+    assert!((q[0] - expected).abs() < 0.1 * step, "{q:?} {expected}");
+    Ok(())
+}

@@ -160,11 +160,10 @@ static int NAME_pass_and_engage(struct NAME_run *run, const int *known)
         }
         NAME_slide(run, still);
         code = code == CAPS_OK ? NAME_decide(run, resting, still, forces) : code;
-SEES         /* forces have changed, and conditions that see them may begin */
-SEES         if (code != CAPS_OK) {
-SEES             return code;
-SEES         }
-BLIND         return code;
+        /* velocities and forces have changed, and other conditions may begin */
+        if (code != CAPS_OK) {
+            return code;
+        }
     }
     return CAPS_ENDLESS;
 }

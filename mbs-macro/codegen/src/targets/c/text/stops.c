@@ -1,6 +1,6 @@
 /* Leads the end of a step back from the stops that are closed there, or that are closed by impulses at these. */
 static int NAME_strike_stops(
-    struct NAME_run *run, const int *pushed, const real *halves, const struct NAME_state *before)
+    struct NAME_run *run, const int *pushed, const real *halves, const struct NAME_state *before, int *is_impact)
 {
     const struct NAME *const m = run->mechanism;
     struct NAME_state *const at = &run->state;
@@ -20,7 +20,8 @@ RUBS     int closed[CAPS_ROWS] = {0}, held[CAPS_ROWS];
     it.halves = halves;
     NAME_compute_gaps(m, at->t, &at->q, &at->v, &still, now);
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
-        it.closed[stop] = pushed[stop] || now[3 * stop] <= 0;
+        /* a gap that is no number, too, for which there is no answer */
+        it.closed[stop] = pushed[stop] || !(now[3 * stop] > 0);
 RUBS         closed[stop] = it.closed[stop];
         is_closed = is_closed || it.closed[stop];
     }
@@ -101,6 +102,7 @@ RUBS         }
         it.impulses[stop] = it.is_impact && impulse > 0 ? impulse : 0;
     }
     NAME_note_stops(run, it.held, it.impulses);
+    *is_impact = it.is_impact;
 RUBS     for (int at_row = 0; at_row < CAPS_RUBBING; at_row++) {
 RUBS         const int row = NAME_rubbing[at_row][0], stop = NAME_rubbing[at_row][1];
 RUBS         if (closed[stop] || it.held[stop]) {
@@ -181,14 +183,17 @@ int NAME_start_from(struct NAME_run *run, const struct NAME_state *state)
 int NAME_step(struct NAME_run *run)
 {
     const struct NAME_run before = *run;
-    int pushed[CAPS_ROWS] = {0}, due[CAPS_ROWS + 16] = {0};
+    int pushed[CAPS_ROWS] = {0}, due[CAPS_ROWS + 16] = {0}, is_impact = 0;
     real halves[CAPS_ROWS] = {0};
     int code = NAME_push(run, pushed, halves);
     code = code == CAPS_OK ? NAME_step_free(run) : code;
-    /* a stop may throw back what a condition has let pass */
     NAME_find_due(run, due);
-    code = code == CAPS_OK ? NAME_strike_stops(run, pushed, halves, &before.state) : code;
+    code = code == CAPS_OK ? NAME_strike_stops(run, pushed, halves, &before.state, &is_impact) : code;
     code = code == CAPS_OK ? NAME_halt(run, pushed, &before.state) : code;
+    /* an impact throws back what a condition has let pass; what modes, rests and frictions lead back has not passed it */
+    for (int of = 0; of < CAPS_ROWS + 16; of++) {
+        due[of] = is_impact && due[of];
+    }
     code = code == CAPS_OK ? NAME_pass_and_engage(run, due) : code;
     if (code != CAPS_OK) {
         const int where = run->where;

@@ -161,9 +161,8 @@ class Modes extends Sticking {
       this.engage();
       // what modes have let go may slide, and what they hold does not
       const resting = this.held().map((it, row) => it && this.isStop(row));
+      // velocities and forces change, and other conditions may begin
       this.decide(resting, this.slide());
-      // forces have changed, and conditions that see them may begin
-      if (!this.seesForces()) return;
     }
     this.fail("ENDLESS");
   }

@@ -306,20 +306,22 @@ class AtStops extends Modes {
       });
       const isDeep = (row) => this.isStop(row) && gap[row] < -this.allowed(size, this.slope(row));
       const impact = { closed: closing, bound: locked, directions: none, bounds, rates };
-      const more = this.answered(turn === 0 ? this.turned(impact, wanted, { pushed, slid, before }) : impact, wanted, isDeep);
+      // what an impact turns around has no part of the step
+      const more = this.answered(turn === 0 && !isImpact ? this.turned(impact, wanted, { pushed, slid, before }) : impact, wanted, isDeep);
       more.rubbed?.forEach((it, row) => { if (it) directions[row] = more.directions[row]; });
       impulses = impulses.map((impulse, stop) => impulse + more.impulses[stop]);
     }
   }
 
-  // Leads the end of a step back from the stops that are closed there.
+  // Leads the end of a step back from the stops that are closed there; true if that was an impact.
   strike({ pushed, halves }, before) {
     const m = this.mechanism, n = this.q.length;
     const now = this.gapsAt(this.t, this.q, this.v, m.unmoved);
-    const closed = now.map(({ gap }, stop) => this.isStop(stop) && (pushed[stop] || gap <= 0));
+    // a gap that is no number, too, for which there is no answer
+    const closed = now.map(({ gap }, stop) => this.isStop(stop) && (pushed[stop] || !(gap > 0)));
     if (!closed.includes(true)) {
       this.noteStops(closed, this.each(() => 0));
-      return;
+      return false;
     }
     m.trialQ.set(before.q);
     m.trialV.set(before.v);
@@ -370,6 +372,7 @@ class AtStops extends Modes {
     const more = impulses.map((impulse, stop) => impulse - (pushed[stop] ? halves[stop] : 0));
     this.noteStops(held, more.map((impulse) => (isImpact && impulse > 0 ? impulse : 0)));
     this.noteDirections(this.each((row) => isClosed[this.stopOf(row)] || held[this.stopOf(row)]), directions);
+    return isImpact;
   }
 
   // A step, and what stops make of its end.
@@ -378,13 +381,14 @@ class AtStops extends Modes {
     try {
       const hasContacts = this.tables.stops.length > 0, push = hasContacts ? this.push() : undefined;
       step();
-      // a stop may throw back what a condition has let pass
       const { due } = this.seen(false);
+      let isImpact = false;
       if (hasContacts) {
-        this.strike(push, { t, q, v });
+        isImpact = this.strike(push, { t, q, v });
         this.halt(push.pushed, { t, q, v });
       }
-      this.passAndEngage(due);
+      // an impact throws back what a condition has let pass; what modes, rests and frictions lead back has not passed it
+      this.passAndEngage(isImpact ? due : []);
     } catch (failure) {
       Object.assign(this, { t, steps, alarm, worstGrowth });
       this.q.set(q);
