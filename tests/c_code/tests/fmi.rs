@@ -102,7 +102,8 @@ fn both_versions_have_the_bits_of_a_run_without_a_warning() {
 
 #[test]
 fn sanitizers_find_nothing() {
-    for compiler in compilers() {
+    // those of clang where it is there, else of gcc: both are the same library
+    if let Some(compiler) = compilers().pop() {
         for (_, text) in texts() {
             let folder = exported(&text, 3);
             let flags = "-std=c99 -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all";

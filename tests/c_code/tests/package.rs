@@ -121,7 +121,8 @@ fn cpp_reads_the_header_and_the_source() {
 
 #[test]
 fn sanitizers_find_nothing() {
-    for compiler in compilers() {
+    // those of clang where it is there, else of gcc: both are the same library
+    if let Some(compiler) = compilers().pop() {
         for name in MECHANISMS.into_iter().step_by(paths::STRIDE) {
             let (folder, prefix) = exported(name);
             let flags = "-std=c99 -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all";
