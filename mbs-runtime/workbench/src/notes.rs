@@ -57,6 +57,7 @@ pub(crate) fn notes(model: &dyn Model, settings: &Settings) -> Vec<String> {
 }
 
 /// The memories that hold where no clock acts.
+#[cfg(feature = "desk")]
 pub(crate) fn held(info: &Info) -> Option<String> {
     let names: Vec<String> = info.memories().iter().map(|memory| format!("`{}`", memory.name)).collect();
     let is_held = !names.is_empty() && info.sampling.clocks > 0;

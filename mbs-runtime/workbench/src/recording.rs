@@ -74,6 +74,7 @@ impl Recording {
     }
 
     /// The places of the columns of memories.
+    #[cfg(feature = "desk")]
     pub(crate) fn of_memories(&self) -> std::ops::Range<usize> {
         let end = self.columns.len().saturating_sub(1);
         end.saturating_sub(self.memories)..end

@@ -1,6 +1,9 @@
 // The compiler in a thread of its own: a program for WASI, started anew for each request, so that nothing of an
-// earlier one is left. Of WASI it needs standard input and output, and chance for its hash maps.
+// earlier one is left. Of WASI it needs standard input and output, and chance for its hash maps. There are no files.
 let compiler = null;
+
+// What WASI says of a file that is not open.
+const NOT_OPEN = 8;
 
 class Ended extends Error {}
 
@@ -37,7 +40,9 @@ async function answer(request) {
     sched_yield: () => 0,
     proc_exit(code) { throw new Ended(`the compiler ended with ${code}`); },
   };
-  const instance = await WebAssembly.instantiate(await compiler, { wasi_snapshot_preview1: wasi });
+  const module = await compiler;
+  WebAssembly.Module.imports(module).forEach(({ name }) => { wasi[name] ??= () => NOT_OPEN; });
+  const instance = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: wasi });
   memory = instance.exports.memory;
   instance.exports._start();
   return new Blob(output).text();
