@@ -1,6 +1,8 @@
 //! Notes on how a run differs from what one may expect. They are no reason to doubt it.
 
-use mbs_runtime::{Info, System};
+#[cfg(feature = "desk")]
+use mbs_runtime::Info;
+use mbs_runtime::System;
 
 use crate::number::significant;
 use crate::{Model, OtherMethod, Settings, Signals, Start, StartKind, StartValue};
