@@ -33,6 +33,7 @@ impl<T> Clone for Erased<T> {
 }
 
 /// [`Dynamics`] on vectors, without functions that know types.
+#[allow(clippy::ptr_arg, reason = "the vectors of `Dynamics`")]
 trait OnVectors<T>: Send {
     fn copied(&self) -> Box<dyn OnVectors<T>>;
     fn described(&self) -> &dyn Described<T>;
