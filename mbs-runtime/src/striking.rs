@@ -177,7 +177,7 @@ impl<'a, T: Real> Striking<'a, T> {
                 let target = if is_still { T::ZERO } else { of(&thrown, stop) + later };
                 of(&rate, stop) - if target.to_f64() > 0.0 { target } else { T::ZERO }
             });
-            // what an impact turns around has no part of the step
+            // an impact takes no time: friction that it turns around has no part of the step
             let turns = turn == 0 && !is_impact;
             let bounds = if turns { self.turned(closing, &rate, &short) } else { *self.bounds };
             let hit = self.hit(closing, &bounds, &rate);

@@ -4,8 +4,8 @@
 //! `border`, the one place with `unsafe`, which turn pointers into references, texts and numbers, or into a status.
 //! `guard` sees to it that an error is kept for `mbs_error` and that no panic gets into C.
 #![deny(unsafe_code)]
-// what C calls is tested through C; in tests of the border it would only be compiled once more
-#![cfg_attr(test, allow(dead_code, unused_macros, reason = "what C calls is left out"))]
+// functions for C are tested through C; in tests of the border they would only be compiled once more
+#![cfg_attr(test, allow(dead_code, unused_macros, reason = "the functions for C are left out"))]
 
 #[macro_use]
 mod guard;

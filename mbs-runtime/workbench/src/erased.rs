@@ -11,7 +11,8 @@ use mbs_runtime::{Components, Dynamics, Error, Mechanism, Real, Scheme, State};
 pub(crate) struct Erased<T = f64>(Box<dyn OnVectors<T>>);
 
 impl<T: Real> Erased<T> {
-    /// A mechanism whose vectors are on the heap, as those of texts.
+    /// A mechanism whose vectors are on the heap already, such as that of a text.
+    #[cfg(feature = "live")]
     pub fn new<D>(dynamics: D) -> Self
     where
         D: Dynamics<Real = T, Coordinates = Vec<T>, States = Vec<T>, Constraints = Vec<T>, Inputs = Vec<T>>
@@ -22,7 +23,7 @@ impl<T: Real> Erased<T> {
 
     /// A mechanism of a type.
     pub fn of_type<M: Mechanism<Real = T>>(mechanism: M) -> Self {
-        Self::new(OfType::new(mechanism))
+        Self(Box::new(OfType::new(mechanism)))
     }
 }
 
@@ -55,6 +56,7 @@ trait OnVectors<T>: Send {
     fn correction_along(&self, from: (T, &Vec<T>), t: T, q: &Vec<T>, delta: &mut Vec<T>) -> T;
 }
 
+#[cfg(feature = "live")]
 impl<T: Real, D> OnVectors<T> for D
 where
     D: Dynamics<Real = T, Coordinates = Vec<T>, States = Vec<T>, Constraints = Vec<T>, Inputs = Vec<T>>
@@ -112,7 +114,7 @@ where
     }
 }
 
-/// A vector of zeros; what a run computes with on the heap.
+/// A vector of zeros.
 fn zeros<T: Real>(count: usize) -> Vec<T> {
     vec![T::ZERO; count]
 }
@@ -219,12 +221,10 @@ impl<T: Real> OfType<T> {
     }
 }
 
-impl<T: Real> Dynamics for OfType<T> {
-    type Real = T;
-    type Coordinates = Vec<T>;
-    type States = Vec<T>;
-    type Constraints = Vec<T>;
-    type Inputs = Vec<T>;
+impl<T: Real> OnVectors<T> for OfType<T> {
+    fn copied(&self) -> Box<dyn OnVectors<T>> {
+        Box::new(self.clone())
+    }
 
     fn described(&self) -> &dyn Described<T> {
         &*self.mechanism
@@ -244,39 +244,15 @@ impl<T: Real> Dynamics for OfType<T> {
         self.mechanism.complete(At { t, q, v }, q_all, v_all);
     }
 
-    fn no_feedback(&self) -> Vec<T> {
-        self.no_feedback.clone()
-    }
-
     fn default_inputs(&self) -> Vec<T> {
         self.inputs.clone()
-    }
-
-    fn with_inputs<R>(&self, inputs: &mut Vec<T>, what: impl FnOnce(&mut [T]) -> R) -> R {
-        what(inputs)
-    }
-
-    fn with_room<S: Scheme>(
-        &self,
-        what: impl FnOnce(&mut Room<'_, T>) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        let info = self.mechanism.info();
-        let mut numbers = vec![T::ZERO; Room::<T>::len(info, S::TABLEAU.stage_count())];
-        what(&mut Room::within(&mut numbers, info))
     }
 
     fn events(&self, at: At<'_, T>, inputs: &Vec<T>, values: &mut [T]) {
         self.mechanism.events(at, inputs, values);
     }
 
-    fn free_acceleration(
-        &self,
-        t: T,
-        q: &Vec<T>,
-        v: &Vec<T>,
-        inputs: &Vec<T>,
-        acceleration: &mut Vec<T>,
-    ) -> T {
+    fn free_acceleration(&self, t: T, [q, v]: [&Vec<T>; 2], inputs: &Vec<T>, acceleration: &mut Vec<T>) -> T {
         let at = At { t, q, v };
         self.mechanism.constrained(at, inputs, &self.no_feedback, acceleration)
     }

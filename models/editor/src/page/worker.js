@@ -2,7 +2,7 @@
 // earlier one is left. Of WASI it needs standard input and output, and chance for its hash maps. There are no files.
 let compiler = null;
 
-// What WASI says of a file that is not open.
+// WASI's answer for a file that is not open.
 const NOT_OPEN = 8;
 
 class Ended extends Error {}

@@ -181,7 +181,7 @@ RUBS     struct NAME_struck struck;
         const real target = it->held[stop] ? 0 : thrown[stop] + later;
         wanted[stop] = rates[stop] - (target > 0 ? target : 0);
     }
-RUBS     /* what an impact turns around has no part of the step */
+RUBS     /* an impact takes no time: friction that it turns around has no part of the step */
 RUBS     if (turn == 0 && !it->is_impact) {
 RUBS         NAME_turn_bounds(contacts, rates, closing, wanted, it, &bounds);
 RUBS     }

@@ -306,7 +306,7 @@ class AtStops extends Modes {
       });
       const isDeep = (row) => this.isStop(row) && gap[row] < -this.allowed(size, this.slope(row));
       const impact = { closed: closing, bound: locked, directions: none, bounds, rates };
-      // what an impact turns around has no part of the step
+      // an impact takes no time: friction that it turns around has no part of the step
       const more = this.answered(turn === 0 && !isImpact ? this.turned(impact, wanted, { pushed, slid, before }) : impact, wanted, isDeep);
       more.rubbed?.forEach((it, row) => { if (it) directions[row] = more.directions[row]; });
       impulses = impulses.map((impulse, stop) => impulse + more.impulses[stop]);
