@@ -344,7 +344,7 @@ pub(crate) fn those(count: usize, holds: impl Fn(usize) -> bool) -> u32 {
     those_of(count, &holds)
 }
 
-/// The same, compiled once.
+/// [`those`] with the function behind a pointer, so that it is compiled once.
 fn those_of(count: usize, holds: &dyn Fn(usize) -> bool) -> u32 {
     (0..count).filter(|stop| holds(*stop)).fold(0, |set, stop| set | bit(stop))
 }

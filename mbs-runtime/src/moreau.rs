@@ -150,7 +150,7 @@ fn pass_and_engage<T: Real>(
     Err(modes::endless(equations.info(), t.to_f64(), all))
 }
 
-/// The same without friction. True if anything has changed, and if that was an impact.
+/// Answers the stops alone; frictions that stick and modes follow. True if anything has changed, and if that was an impact.
 fn strike_stops<T: Real>(
     equations: &dyn Equations<T>,
     (h, changes): (T, Changes<'_, T>),

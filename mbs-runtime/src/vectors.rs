@@ -66,7 +66,7 @@ pub(crate) fn magnitude<T: Real>(x: &[T], at: usize) -> T {
     x.get(at).map_or(T::default(), |x| x.abs())
 }
 
-/// An array whose components are those of a function. It is compiled once for a length, and not for each function.
+/// The array of the values that a function has for each index. It is compiled once for a length, and not for each function.
 pub(crate) fn each<T: Copy + Default, const N: usize>(of: &mut dyn FnMut(usize) -> T) -> [T; N] {
     let mut each = [T::default(); N];
     for (at, to) in each.iter_mut().enumerate() {

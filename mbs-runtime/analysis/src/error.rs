@@ -34,7 +34,7 @@ pub enum Error {
         /// The name of the mechanism.
         mechanism: &'static str,
     },
-    /// A stop that would have to pull where a mechanism rests on it.
+    /// A mechanism that forces lead away from the stop on which it was to rest.
     #[error(
         "nothing holds this mechanism at the stop `{stop}`: forces lead it away, and a stop does not pull; \
          start the search where it may rest, or change its forces"

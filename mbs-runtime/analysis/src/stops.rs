@@ -180,7 +180,7 @@ fn subsets(count: usize, sizes: RangeInclusive<usize>) -> impl Iterator<Item = B
 }
 
 /// The rows beside the constraints at a point: of the modes that hold, and of the stops that are closed there, if all of them
-/// push. Of stops that depend on each other, such as three feet on a floor, as many as are independent.
+/// push. Of stops that depend on each other, such as three feet on a floor, it gives as many as are independent.
 ///
 /// # Errors
 /// A point behind a stop, or that touches one which does not push: what is beside it is not linear; one that is off a
@@ -215,8 +215,8 @@ pub fn rows_at(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result
     }
 }
 
-/// Those of some closed stops, of which so many are independent, that can push while none pulls. The forces on dependent stops
-/// are not unique: each set of independent ones that balances the loads is one answer, and the mean of answers is one too.
+/// The closed stops that can push while none of them pulls; so many of them are independent of each other. The forces on dependent
+/// stops are not unique: each independent set that balances the loads is one answer, and a mean of answers is another.
 fn pushing(
     mechanism: &dyn Described<f64>,
     point: &OperatingPoint,

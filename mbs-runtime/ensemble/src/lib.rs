@@ -332,7 +332,7 @@ impl<'a, const N: usize> Ensemble<'a, N> {
     }
 }
 
-/// Does some pieces of work on the threads of the current pool. What runs threads is compiled once, and not for each mechanism.
+/// Calls `work` with 0 … `count` − 1 on the threads of the current pool. It knows no mechanism, so that threads are compiled once.
 fn in_parallel(count: usize, work: &(dyn Fn(usize) + Sync)) {
     (0..count).into_par_iter().for_each(work);
 }

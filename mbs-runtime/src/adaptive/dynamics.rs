@@ -4,8 +4,8 @@
 //!
 //! * every `Mechanism`, with arrays for vectors and with inlined functions;
 //! * a text (`Prepared` of `mbs-live`), with vectors on the heap;
-//! * what a type or a text is when both are forgotten (`erased.rs` of the workbench), so that these runs are
-//!   compiled once for all of them.
+//! * a type or a text whose name is forgotten (`erased.rs` of the workbench), so that these runs are compiled
+//!   once for all of them.
 
 use crate::equations::{At, Described, Equations};
 use crate::explicit::{Beside, correct};

@@ -17,7 +17,7 @@ use crate::mechanics::joints::Holds;
 use crate::mechanics::{Outline, Placed};
 use crate::syntax::{Attachment, Element, ElementProperty, Formula, FormulaKind, Load};
 
-/// The help for a clearance whose value is 0, but which is not the number.
+/// The help for a clearance that comes to 0 without being the number 0.
 const NO_PLAY: &str = "it has to be positive; the joint without play is `clearance = 0`, a number";
 
 /// An element with its places found and its properties read.

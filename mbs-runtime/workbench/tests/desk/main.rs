@@ -1,5 +1,5 @@
-//! The workbench as programs use it. What needs a run stands here and not beside the code: for that all of the crate would be
-//! compiled once more.
+//! The workbench as programs use it. Tests that run a mechanism stand here: beside the code they would compile the whole crate
+//! once more.
 #![allow(clippy::unwrap_used, reason = "a test says by panicking what is wrong")]
 
 mod arguments;
