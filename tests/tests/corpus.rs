@@ -7,6 +7,7 @@ use std::fs;
 use std::time::Duration;
 
 use mbs_codegen::KeywordKind;
+use rayon::prelude::*;
 use tests::fuzzing::verdict::{Verdict, judge};
 
 /// Far more than the milliseconds that these take, on any machine.
@@ -23,14 +24,14 @@ fn corpus() -> Vec<(String, String)> {
 
 #[test]
 fn every_file_is_answered() {
-    for (path, text) in corpus() {
+    corpus().into_par_iter().for_each(|(path, text)| {
         let verdict = judge(&text, LIMIT);
         assert!(!verdict.is_failure(), "{path}: {verdict:?}");
         // seeds are valid by name
         if path.contains("valid_") {
             assert_eq!(verdict, Verdict::Compiled, "{path}");
         }
-    }
+    });
 }
 
 /// Each keyword of the language occurs in a file that compiles.

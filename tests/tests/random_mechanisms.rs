@@ -6,7 +6,7 @@
 
 use std::time::Duration;
 
-use paths::STRIDE;
+use paths::some_of;
 use rayon::prelude::*;
 use tests::fuzzing::verdict::{Verdict, judge};
 use tests::linkages::declaration;
@@ -20,8 +20,8 @@ const LIMIT: Duration = Duration::from_secs(60);
 
 #[test]
 fn random_mechanisms_compile_or_are_refused_with_a_reason() {
-    let count = std::env::var("MECHANISMS")
-        .map_or(MECHANISMS / STRIDE as u64, |text| text.parse().expect("a number"));
+    let count =
+        std::env::var("MECHANISMS").map_or(some_of(MECHANISMS), |text| text.parse().expect("a number"));
     let compiles = |number: u64| {
         let text = declaration(number);
         let verdict = judge(&text, LIMIT);

@@ -1,19 +1,22 @@
 //! Work and code grow about with what is declared: parts that stand in several places are
-//! one part. Lengths of expansions are compared rather than times, which depend on the
+//! one part. Lengths of C code are compared rather than times, which depend on the
 //! machine; without a bound on either these declarations took minutes or all memory.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-/// How long the expansion of a valid declaration is.
+use mbs_codegen::targets::{Scalar, c};
+
+/// How long the C code of a valid declaration is, whose instructions stand in the order in which they were found.
 fn length(declaration: &str) -> usize {
     let tokens = declaration.parse().expect("tokens");
     let start = Instant::now();
-    let expansion = mbs_codegen::compile(tokens).expect("a valid declaration");
+    let compiled = mbs_codegen::analyse(tokens).expect("a valid declaration");
+    let code = c(&compiled, Scalar::Double).expect("it is printed");
     // a tenth of that on any machine; what grows exponentially takes hours
     assert!(start.elapsed() < Duration::from_secs(30), "{:?}", start.elapsed());
-    expansion.to_string().len()
+    code.source.text.len()
 }
 
 /// Twice as much is declared: the code is at most `factor` times as long.

@@ -10,6 +10,7 @@ use std::process::Command;
 use c_code::{compilers, is_there};
 use mbs_live::{Experiment, Run, Text};
 use mbs_runtime::System;
+use paths::some_of;
 use tempfile::TempDir;
 
 /// With drives and without, tables, redundant constraints, own states and loops of long programs, clocks.
@@ -134,7 +135,7 @@ fn ten_thousand_instances_leave_nothing_behind() {
     if !["valgrind", "gcc"].iter().all(|tool| is_there(tool)) {
         return;
     }
-    let folder = exported(&text("slider-crank-free"), 10_000);
+    let folder = exported(&text("slider-crank-free"), some_of(10_000) as usize);
     run(folder.path(), "gcc -std=c99 -g -O2 solver.c main.c -lm -o plain");
     run(folder.path(), "valgrind --quiet --error-exitcode=9 --leak-check=full --show-leak-kinds=all ./plain");
 }

@@ -9,7 +9,7 @@
 use c_code::{Choice, Fault, build, compilers};
 use mbs_live::{Live, Run, Scalar, Text};
 use mbs_runtime::{Baumgarte, Error, Held, Method, PerStage, System};
-use paths::{EXHAUSTIVE, STRIDE};
+use paths::{STRIDE, some_of};
 
 #[path = "../../src/between_stops.rs"]
 mod between_stops;
@@ -121,8 +121,8 @@ fn mechanisms_of_the_library() {
 #[test]
 fn random_mechanisms() {
     let Some(&compiler) = compilers().first() else { return };
-    let count = std::env::var("MECHANISMS")
-        .map_or(MECHANISMS / STRIDE as u64, |text| text.parse().expect("a number"));
+    let count =
+        std::env::var("MECHANISMS").map_or(some_of(MECHANISMS), |text| text.parse().expect("a number"));
     let (mut number, mut compared) = (0, 0);
     while compared < count {
         let text = Text::declaration(format!("random {number}"), linkages::declaration(number));
@@ -143,7 +143,7 @@ fn random_mechanisms_between_stops() {
 /// Random mechanisms of a kind.
 fn compare_random(kind: &str, declaration: impl Fn(u64) -> String) {
     let Some(&compiler) = compilers().first() else { return };
-    for number in 0..if EXHAUSTIVE { 8 } else { 3 } {
+    for number in 0..some_of(8) {
         let name = format!("{kind} {number}");
         let text = Text::declaration(&name, declaration(number));
         assert!(compare(&name, &text, 1e-3, compiler), "{name} starts");
@@ -195,7 +195,7 @@ fn random_mechanisms_on_rough_stops() {
 #[test]
 fn mechanisms_on_rough_stops() {
     let Some(&compiler) = compilers().first() else { return };
-    for (name, text) in rough::rough() {
+    for (name, text) in rough::rough().step_by(STRIDE) {
         assert!(compare(name, &Text::declaration(name, text), 1e-3, compiler), "{name} starts");
     }
 }

@@ -10,7 +10,7 @@ mod steps;
 
 pub use compare::{Case, bisect};
 pub use run::{Instant, Run};
-pub use sample::{EXHAUSTIVE, STRIDE};
+pub use sample::{EXHAUSTIVE, STRIDE, some_of};
 
 use compare::Widening;
 use mbs_runtime::{Error, Mechanism, Method, Simulation};

@@ -12,6 +12,7 @@ use declarations::*;
 use mbs_codegen::analyse;
 use mbs_live::Text;
 use mbs_runtime::Error;
+use paths::EXHAUSTIVE;
 
 #[test]
 fn driven_crank() {
@@ -47,7 +48,9 @@ fn every_function() {
 fn chain_too_long_for_a_fused_step() {
     let compiled = analyse(CHAIN.parse().expect("tokens")).expect("a mechanism");
     assert!(compiled.fused_step.is_none());
-    agree::<Chain>(CHAIN, &[], 1e-4);
+    if EXHAUSTIVE {
+        agree::<Chain>(CHAIN, &[], 1e-4);
+    }
 }
 
 #[test]

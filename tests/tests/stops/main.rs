@@ -156,6 +156,6 @@ fn a_start_behind_a_stop_is_refused() {
     let run = Adaptive::builder(Ball::declared()).from_state(behind).build().map(|_| ());
     let steps = Simulation::builder(Ball::declared(), 1e-3).from_state(behind).build().map(|_| ());
     for refused in [run, steps].map(|run| run.expect_err("an error").to_string()) {
-        assert!(refused.contains("is behind the stop `floor`: its gap is -0.1"), "{refused}");
+        assert!(refused.contains("is behind the stop `floor`: its gap is -0.1 m;"), "{refused}");
     }
 }
