@@ -1,6 +1,7 @@
 //! The description of a mechanism for tools: names, units, equations, counts.
 
 use crate::declared::{DeclaredEvent, DeclaredFriction, DeclaredStop, Modes};
+use crate::error::Error;
 
 /// At most so many contacts has a mechanism: stops, behind them frictions that stick, and constraints of modes.
 pub(crate) const MOST_CONTACTS: usize = 16;
@@ -305,6 +306,12 @@ impl Info {
             Some(friction) => self.frictions.get(friction).map(|friction| friction.name),
             None => self.stops.get(row).map(|stop| stop.name),
         }
+    }
+
+    /// The error of a position behind a stop, by its place and its gap in SI units.
+    pub fn behind(&self, t: f64, stop: usize, gap: f64) -> Error {
+        let [stop, unit] = self.stops.get(stop).map_or([""; 2], |stop| [stop.name, stop.unit]);
+        Error::Behind { t, stop, gap, unit }
     }
 
     /// The number of values along which impulses act: the gaps of stops, behind them the ways of frictions that stick, and

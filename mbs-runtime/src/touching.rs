@@ -38,8 +38,7 @@ pub fn begin<T: Real>(
     let settled = Contacts::at(equations, (at.t, at.q), |contacts| {
         let allowed = |stop: usize| size * contacts.slope(stop);
         if let Some(stop) = (0..count).find(|&stop| number(&gaps.gap, stop) < -allowed(stop)) {
-            let name = info.stops.get(stop).map_or("", |stop| stop.name);
-            return Err(Error::Behind { t: at.t.to_f64(), stop: name, gap: number(&gaps.gap, stop) });
+            return Err(info.behind(at.t.to_f64(), stop, number(&gaps.gap, stop)));
         }
         let closed = those(count, |stop| number(&gaps.gap, stop) <= allowed(stop));
         let met = |row: usize| modes::allowed::<T>(size / BEHIND, contacts.slope(row));

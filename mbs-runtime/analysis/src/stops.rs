@@ -143,10 +143,7 @@ fn judged<R>(
     Found { result, q, multipliers, falls }: Found<R>,
 ) -> Result<Verdict<R>, Error> {
     let (gaps, size) = gaps(mechanism, t, &q);
-    let behind = |stop: usize| {
-        let name = mechanism.info().stops[stop].name;
-        Error::from(mbs_runtime::Error::Behind { t, stop: name, gap: gaps[stop] })
-    };
+    let behind = |stop: usize| Error::from(mechanism.info().behind(t, stop, gaps[stop]));
     if let Some(stop) = stops.first().filter(|_| !are_independent(mechanism, (t, &q), rows)) {
         return Err(behind(*stop));
     }
@@ -190,7 +187,7 @@ pub fn rows_at(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result
     let (gaps, size) = gaps(mechanism, t, q);
     let info = mechanism.info();
     if let Some(stop) = (0..gaps.len()).find(|stop| gaps[*stop] < -size) {
-        return Err(mbs_runtime::Error::Behind { t, stop: info.stops[stop].name, gap: gaps[stop] }.into());
+        return Err(info.behind(t, stop, gaps[stop]).into());
     }
     meets_modes(mechanism, (t, q), &point.inputs)?;
     let held = held_rows(mechanism, (t, q), &point.inputs);

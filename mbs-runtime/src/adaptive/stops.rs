@@ -133,8 +133,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 .find(|(_, (gap, allowed))| *gap < -*allowed)
         });
         if let Some((stop, (gap, _))) = behind {
-            let stop = stops.get(stop).map_or("", |stop| stop.name);
-            return Err(Error::Behind { t, stop, gap });
+            return Err(self.dynamics.equations().info().behind(t, stop, gap));
         }
         let touched = self.with_jump(|jump| {
             let gaps = vectors::numbers(&jump.gaps().gap);

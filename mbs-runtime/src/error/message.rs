@@ -132,16 +132,16 @@ impl fmt::Display for Error {
             ),
             Self::Apart { t, constraint, by } => write!(
                 f,
-                "at t = {t} s a mode holds whose constraint `{constraint}` is off by {} (SI units): enter it where its joints \
+                "at t = {t} s a mode holds whose constraint `{constraint}` is off by {} in SI units: enter it where its joints \
                  close, or take a `rate` for what holds anywhere",
-                Plain(by),
+                Shown(by),
                 t = Shown(t)
             ),
             Self::Contradiction { t, constraint, rate } => write!(
                 f,
                 "at t = {t} s the constraint `{constraint}` of a mode contradicts what else holds, another mode, a drive or a joint: \
-                 its rate stays at {} (SI units); leave one of them before",
-                Plain(rate),
+                 its rate stays at {} in SI units; leave one of them before",
+                Shown(rate),
                 t = Shown(t)
             ),
             Self::Endless { t, condition } => write!(
@@ -150,12 +150,13 @@ impl fmt::Display for Error {
                  enters be another one than that which leaves",
                 t = Shown(t)
             ),
-            Self::Behind { t, stop, gap } => write!(
+            Self::Behind { t, stop, gap, unit } => write!(
                 f,
-                "at t = {t} s this position is behind the stop `{stop}`: its gap is {} (SI units); a mechanism starts and rests \
-                 before its stops: check the values, and on which side of `<=` they are",
-                Plain(gap),
-                t = Shown(t)
+                "at t = {t} s this position is behind the stop `{stop}`: its gap is {gap}{space}{unit}; a mechanism starts \
+                 and rests before its stops: check the values, and on which side of `<=` they are",
+                t = Shown(t),
+                gap = Shown(gap),
+                space = if unit.is_empty() { "" } else { " " }
             ),
             Self::Impact { t, stop } => write!(
                 f,

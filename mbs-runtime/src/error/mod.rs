@@ -202,6 +202,8 @@ pub enum Error {
         stop: &'static str,
         /// Its gap in SI units.
         gap: f64,
+        /// The unit of it; empty for a bare number.
+        unit: &'static str,
     },
     /// An impact that no impulses answer.
     Impact {

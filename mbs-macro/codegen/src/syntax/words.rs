@@ -186,7 +186,11 @@ pub(super) fn written(tokens: TokenStream) -> String {
                     Delimiter::None => ["", ""],
                 };
                 let is_call = group.delimiter() == Delimiter::Parenthesis && is_operand;
-                (format!("{open}{}{close}", written(group.stream())), is_apart && !is_call, true)
+                let inner = written(group.stream());
+                // the factors of a unit stand together
+                let is_unit = group.delimiter() == Delimiter::Bracket;
+                let inner = if is_unit { inner.replace(" / ", "/").replace(" * ", "*") } else { inner };
+                (format!("{open}{inner}{close}"), is_apart && !is_call, true)
             }
             TokenTree::Ident(_) | TokenTree::Literal(_) => (token.to_string(), is_apart, true),
         };
@@ -210,6 +214,7 @@ mod tests {
             "bar.end.y < 0 [m]",
             "sqrt(x^2 + y^2) >= -2 [mm]",
             "distance(a.p, ground) < l",
+            "der(phi) > 2 * x / l * 1 [kg*m^2/s]",
             "if x > 0 { -x } else { 1 } <= 3",
         ] {
             let tokens = text.parse().expect("tokens");
