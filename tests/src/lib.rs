@@ -18,7 +18,7 @@
 //! * `paths` has the paths of a step: in stages, fused, in single precision, in lanes of four kinds. A
 //!   reference is stated once and held on each of them, and as loops. The references of `models` use it too.
 //! * `long` has what takes so many steps that optimised code is worth its compilation, and what looks at optimised code.
-//! * `mbs-macro/symbolic/tests` tests algebra with random expressions.
+//! * `tests/symbolic` tests algebra with random expressions.
 //! * `models/tests/library` holds every mechanism of the library to balances and the order of the method.
 //!   `models/tests/references` holds each to its closed form or to a published result.
 //!

@@ -1,6 +1,6 @@
 //! Source expressions as plain trees, evaluated without the algebra of expressions: with second-order jets whose
 //! every component knows a bound of its rounding error.
-#![allow(dead_code, unused_imports, clippy::unwrap_used, reason = "each test uses its part of this")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod trees;
 

@@ -2,9 +2,7 @@
 //! bit for bit but for the sign of a zero; and do it in fewer operations.
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 
-mod common;
-
-use common::{Tree, VARIABLES, points, trees};
+use super::common::{Tree, VARIABLES, points, trees};
 use mbs_interface::sine::{Octant, SHIFT};
 use mbs_symbolic::pairs::{Lane, Layout, Scalar, Step, Term, Woven, weave};
 use mbs_symbolic::{Arena, Expr, Function, Operation, Program, Stage, Symbol, lower_whole};

@@ -4,11 +4,9 @@
 #![allow(clippy::expect_used, reason = "helpers of tests")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
-mod common;
-
 use std::collections::{BTreeSet, HashSet};
 
-use common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
+use super::common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{
     Arena, Expr, FUNCTIONS, Hoisted, Number, Operand, Operation, Program, Rounded, Stage, Symbol, lower,
     lower_whole,

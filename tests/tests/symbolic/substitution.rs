@@ -2,9 +2,7 @@
 //! values are those of the inner expression in the place of the symbol.
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
-mod common;
-
-use common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
+use super::common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Expr, Stage, Symbol};
 use proptest::prelude::*;
 use rustc_hash::FxHashMap as HashMap;

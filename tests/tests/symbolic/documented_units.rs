@@ -9,7 +9,7 @@ use mbs_symbolic::units;
 
 #[test]
 fn the_documented_units_are_those_of_the_table() {
-    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../mbs-runtime/src/language.md");
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../mbs-runtime/src/language.md");
     let page = fs::read_to_string(page).unwrap();
     let (_, section) = page.split_once("\n# Units\n").unwrap();
     let list = section.split("\n\n").find(|paragraph| paragraph.contains(" · ")).unwrap();

@@ -3,9 +3,7 @@
 //! operator; of several results with weights; through splines.
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "helpers of tests")]
 
-mod common;
-
-use common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
+use super::common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Number, Operand, Program, Stage, Symbol, lower, lower_whole};
 use proptest::prelude::*;
 

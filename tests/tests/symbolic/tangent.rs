@@ -3,9 +3,7 @@
 //! of the transpose, for several results, hoisted values and splines.
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "helpers of tests")]
 
-mod common;
-
-use common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
+use super::common::{Jet, Line, Tolerance, Tree, VARIABLES, config, every_operator, points, trees};
 use mbs_symbolic::{Arena, Hoisted, Number, Operand, Spline, Stage, lower, lower_whole};
 use proptest::prelude::*;
 
