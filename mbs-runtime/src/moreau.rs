@@ -104,11 +104,36 @@ pub fn strike<T: Real>(
         strike_stops(equations, (h, own), (pushed, before), (t, [&mut *q, &mut *v]), inputs)?;
     let own = Changes { still, rows: &mut *rows, q: &mut *of_q, v: &mut *of_v };
     let has_halted = halt(equations, (h, own), (pushed.set, before), (t, [&mut *q, &mut *v]), inputs)?;
+    if is_impact {
+        keep_pushing(equations, At { t, q, v }, inputs, [&mut *of_q, &mut *rows])?;
+    }
     let own = Changes { still, rows, q: of_q, v: of_v };
     // an impact throws back what a condition has let pass; what modes, rests and frictions lead back has not passed it
     let found = if is_impact { found } else { 0 };
     let passes = pass_and_engage(equations, (h, own), found, (t, [q, v]), inputs)?;
     Ok(has_halted || is_struck || passes)
+}
+
+/// Leaves the stops that would have to pull at what rests on them with the velocities behind an impact.
+///
+/// # Errors
+/// [`Error::Impact`], [`Error::Jammed`].
+fn keep_pushing<T: Real>(
+    equations: &dyn Equations<T>,
+    at: At<'_, T>,
+    inputs: &mut [T],
+    room: [&mut [T]; 2],
+) -> Result<(), Error> {
+    let (info, all) = (equations.info(), held(equations, inputs));
+    let resting = all & all_stops(info);
+    if resting == 0 {
+        return Ok(());
+    }
+    let undecided = Undecided { resting, still: all & all_frictions(info), breaking: 0 };
+    let Held { forces, .. } = decide(equations, at, inputs, undecided, room)?;
+    let pushing = those(info.stops.len(), |stop| has(resting, stop) && number(&forces, stop) > 0.0);
+    note(equations, pushing, &[T::ZERO; MOST_CONTACTS], inputs);
+    Ok(())
 }
 
 /// Takes the samples of conditions that have begun to hold, and leads the end of a step to the constraints of the modes that

@@ -197,12 +197,12 @@ fn to_a_tolerance(live: &Live, (tolerances, samples): (Tolerances, u64), stops: 
     looked_at(&mut Sampled::new(built, 0.02)?, [samples, 1], stops, allowed)
 }
 
-/// Looks at a run with constant steps; see [`looked_at`].
+/// Looks at every step of a run with constant steps; see [`looked_at`].
 fn in_constant_steps(live: &Live, samples: u64, stops: usize) -> Looked {
     const STEP: f64 = 1e-4;
     // forces of some 300 N along the way of a few impacts that are a step off; factors of gaps up to 2, four bodies
     let allowed = |_: f64, _: f64, fastest: f64| [300.0, 8.0].map(|most| most * STEP * fastest + 1e-9);
-    looked_at(&mut Run::builder(live, STEP).build()?, [samples, 100], stops, allowed)
+    looked_at(&mut Run::builder(live, STEP).build()?, [100 * samples, 1], stops, allowed)
 }
 
 /// Looks at a run every so many steps: energy grows, and gaps, which are its first outputs, are below 0, by no more than is

@@ -180,6 +180,29 @@ int NAME_start_from(struct NAME_run *run, const struct NAME_state *state)
     return code == CAPS_OK ? NAME_touch(run) : code;
 }
 
+/* Leaves the stops that would have to pull at what rests on them with the velocities behind an impact. */
+static int NAME_keep_pushing(struct NAME_run *run)
+{
+    const real none[CAPS_ROWS] = {0};
+    real forces[CAPS_ROWS] = {0};
+    int held[CAPS_ROWS], resting[CAPS_ROWS], still[CAPS_ROWS], is_resting = 0;
+    NAME_find_held(run, held);
+    for (int row = 0; row < CAPS_ROWS; row++) {
+        resting[row] = row < CAPS_STOPS && held[row];
+        still[row] = row >= CAPS_STOPS && row < CAPS_OWN_ROWS && held[row];
+        is_resting = is_resting || resting[row];
+    }
+    const int code = is_resting ? NAME_decide(run, resting, still, forces) : CAPS_OK;
+    if (code != CAPS_OK || !is_resting) {
+        return code;
+    }
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        resting[stop] = resting[stop] && forces[stop] > 0;
+    }
+    NAME_note_stops(run, resting, none);
+    return CAPS_OK;
+}
+
 int NAME_step(struct NAME_run *run)
 {
     const struct NAME_run before = *run;
@@ -190,6 +213,7 @@ int NAME_step(struct NAME_run *run)
     NAME_find_due(run, due);
     code = code == CAPS_OK ? NAME_strike_stops(run, pushed, halves, &before.state, &is_impact) : code;
     code = code == CAPS_OK ? NAME_halt(run, pushed, &before.state) : code;
+    code = code == CAPS_OK && is_impact ? NAME_keep_pushing(run) : code;
     /* an impact throws back what a condition has let pass; what modes, rests and frictions lead back has not passed it */
     for (int of = 0; of < CAPS_ROWS + 16; of++) {
         due[of] = is_impact && due[of];

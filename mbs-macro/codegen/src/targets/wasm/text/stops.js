@@ -375,6 +375,14 @@ class AtStops extends Modes {
     return isImpact;
   }
 
+  // Leaves the stops that would have to pull at what rests on them with the velocities behind an impact.
+  keepPushing() {
+    const held = this.held(), resting = held.map((it, row) => it && this.isStop(row)), rows = this.frictions();
+    if (!resting.includes(true)) return;
+    const forces = this.decide(resting, held.map((it, row) => it && rows.includes(row)));
+    this.noteStops(resting.map((it, stop) => it && forces[stop] > 0), this.each(() => 0));
+  }
+
   // A step, and what stops make of its end.
   toStops(step) {
     const { t, steps, alarm, worstGrowth } = this, q = this.q.slice(), v = this.v.slice();
@@ -386,6 +394,7 @@ class AtStops extends Modes {
       if (hasContacts) {
         isImpact = this.strike(push, { t, q, v });
         this.halt(push.pushed, { t, q, v });
+        if (isImpact) this.keepPushing();
       }
       // an impact throws back what a condition has let pass; what modes, rests and frictions lead back has not passed it
       this.passAndEngage(isImpact ? due : []);
