@@ -254,26 +254,33 @@ impl Linearization {
         let eigenvalues = schur.complex_eigenvalues();
         let fastest = eigenvalues.iter().map(|root| root.norm()).fold(0.0, f64::max);
         let rate = if fastest > 0.0 { fastest } else { 1.0 };
-        let mut roots: Vec<Complex<f64>> = eigenvalues.iter().map(|root| known(&(root / rate))).collect();
-        roots.retain(|root| root.im >= 0.0);
+        let of_rest = |root: Complex<f64>| if root.norm() <= STILL { Complex::from(0.0) } else { root };
+        let roots = eigenvalues.iter().map(|root| of_rest(known(&(root / rate))));
+        let mut roots: Vec<Complex<f64>> = roots.filter(|root| root.im >= 0.0).collect();
         roots.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-        // the next shape of an eigenvalue that has been there before
-        let before = |at: usize| roots[..at].iter().filter(|root| **root == roots[at]).count();
+        // the next shape of an eigenvalue that has been there before, of as many as there are
+        let equal = |of: &[Complex<f64>], at: usize| of.iter().filter(|root| **root == roots[at]).count();
         Ok(roots
             .iter()
             .enumerate()
-            .map(|(at, root)| self.mode_with_states(*root, rate, before(at)))
+            .map(|(at, root)| {
+                self.mode_with_states(*root, rate, [equal(&roots[..at], at), equal(&roots, at)])
+            })
             .collect())
     }
 
-    fn mode_with_states(&self, root: Complex<f64>, rate: f64, number: usize) -> Mode {
+    /// The mode of an eigenvalue by its place among so many that are equal.
+    fn mode_with_states(&self, root: Complex<f64>, rate: f64, [number, of]: [usize; 2]) -> Mode {
         let (f, eigenvalue) = (self.dof(), root * rate);
         let pencil = self.pencil(eigenvalue);
         let small = DEFECT * pencil.iter().map(|x| x.norm()).fold(0.0, f64::max);
-        let [right, left] = null_vectors(&pencil, number + 1, small);
+        let [right, left] = null_vectors(&pencil, of, small);
         let none = || DVector::zeros(self.a.nrows() - f);
         // one that is defective has a single shape
-        let [right, left] = [right, left].map(|vectors| vectors.into_iter().nth_back(0).unwrap_or_else(none));
+        let one = |vectors: Vec<DVector<Complex<f64>>>| {
+            vectors.get(number).or(vectors.last()).cloned().unwrap_or_else(none)
+        };
+        let [right, left] = [right, left].map(one);
         let (z, states) = (right.rows(0, f).clone_owned(), right.rows(f, right.len() - f).clone_owned());
         let all = self.directions.map(Complex::from) * z;
         let lines = all.len() - states.len();
@@ -290,8 +297,12 @@ impl Linearization {
         let shape = DVector::from_fn(shape.len(), |at, _| {
             let known = |x: f64| if x.abs() > SMALL * largest * self.scales[at] { x } else { 0.0 };
             let share = Complex::new(known(shape[at].re), known(shape[at].im)) / unit;
-            // what does not oscillate moves in phase
-            if root.im == 0.0 { Complex::from(share.re) } else { share }
+            // what does not oscillate moves in phase, and so does what is off it by rounding
+            if root.im == 0.0 || share.im.abs() <= SMALL * share.norm() {
+                Complex::from(share.re)
+            } else {
+                share
+            }
         });
         Mode { eigenvalue, shape, behaviour: behaviour(root), vectors: [right, left] }
     }

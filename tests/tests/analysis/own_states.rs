@@ -113,3 +113,21 @@ fn equal_modes_have_shapes_of_their_own() {
     let asked = Ports { outputs: Some(vec!["integral(a)".to_owned()]), ..Ports::default() };
     assert!(matches!(linearize(&live(text), &point, &asked), Err(Error::Unknown { .. })));
 }
+
+/// Regression: of three eigenvalues 0, with a position and two states that nothing brings back, two had the same shape.
+#[test]
+fn equal_eigenvalues_have_shapes_of_their_own() {
+    let live = live(
+        "Free { dof = 1; body b (x) { mass = 1 [kg]; } force d on x = -3 [N*s/m]*der(x);
+            state w [J]; der(w) = 1 [W]*der(x)/(1 [m/s]); state z [1]; der(z) = 0; }",
+    );
+    let point = OperatingPoint::resting(live.declared_info(), 0.0, &[0.0; 3], &[]);
+    let linear = linearize(&live, &point, &Ports::default()).expect("a linear system");
+    let modes = linear.modes().expect("modes");
+    let free: Vec<_> = modes.iter().filter(|mode| mode.eigenvalue.norm() == 0.0).collect();
+    assert_eq!(free.len(), 3);
+    for at in 0..3 {
+        let moves = |mode: &&&mbs_analysis::Mode| mode.shape[at].norm() > 0.0;
+        assert_eq!(free.iter().filter(moves).count(), 1, "{at}");
+    }
+}
