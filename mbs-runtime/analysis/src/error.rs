@@ -43,6 +43,15 @@ pub enum Error {
         /// The name of the stop.
         stop: &'static str,
     },
+    /// A linear system by parameters about a position that a stop or a mode holds.
+    #[error(
+        "at this point `{holds}` holds the mechanism, and a linear system by parameters is that of the motion without it; \
+         leave the parameters out, or take the difference of two systems"
+    )]
+    ByParameters {
+        /// The name of the stop or of the mode.
+        holds: &'static str,
+    },
     /// An analysis that does not know states of a declaration's own.
     #[error(
         "`{mechanism}` has a state of its own (`{state}`), and {what} knows positions and velocities alone; \

@@ -166,7 +166,7 @@ pub fn linearize(
     info.refuse_sticking("a linear system")?;
     match rows_at(mechanism, point)?[..] {
         [] if info.stops.is_empty() || !ports.parameters.is_empty() => on_its_rows(mechanism, point, ports),
-        [row, ..] if !ports.parameters.is_empty() => Err(not_by_parameters(info, row).into()),
+        [row, ..] if !ports.parameters.is_empty() => Err(not_by_parameters(info, row)),
         ref rows => on_its_rows(&Resting::new(mechanism, rows), point, ports),
     }
 }

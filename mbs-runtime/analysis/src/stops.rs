@@ -244,17 +244,9 @@ fn pushing(
 }
 
 /// Why there is no linear system by parameters about a row of a stop or of a mode.
-pub fn not_by_parameters(info: &Info, row: usize) -> mbs_runtime::Error {
+pub fn not_by_parameters(info: &Info, row: usize) -> Error {
     let lock = info.locks().find(|(of, _)| *of == row);
     let mode = lock.and_then(|(_, lock)| info.modes.modes.iter().find(|mode| mode.memory == lock.mode));
-    match mode {
-        Some(mode) => {
-            let what = "a linear system by parameters about a mode that holds";
-            mbs_runtime::Error::Modes { what, mode: mode.name }
-        }
-        None => {
-            let what = "a linear system by parameters about a closed stop";
-            mbs_runtime::Error::Stops { what, stop: info.stops.get(row).map_or("", |stop| stop.name) }
-        }
-    }
+    let stop = info.stops.get(row).map_or("", |stop| stop.name);
+    Error::ByParameters { holds: mode.map_or(stop, |mode| mode.name) }
 }

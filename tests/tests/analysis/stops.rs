@@ -151,6 +151,24 @@ fn a_block_on_three_feet_moves_as_on_two() {
     assert!(error.to_string().contains("touches a stop without force"), "{error}");
 }
 
+/// About a rest on a stop the motion by parameters is not known, and no impact is to blame.
+#[test]
+fn a_rest_on_a_stop_has_no_linear_system_by_parameters() {
+    let text = "Heavy {
+        dof = 1;
+        param m = 2 [kg] where m > 0;
+        gravity = (0, -9.81) [m/s^2];
+        body block (y) { mass = m; }
+        stop floor: y >= 0 [m] { restitution = 0; }
+        start { y = 1 [m]; }
+    }";
+    let live = Text::declaration("heavy.mbs", text).compile().unwrap();
+    let rest = OperatingPoint::from(&equilibrium(&live, &Search::default()).unwrap());
+    let ports = Ports { parameters: vec!["m".into()], ..Ports::default() };
+    let error = linearize(&live, &rest, &ports).map(|_| ()).unwrap_err();
+    assert!(matches!(error, Error::ByParameters { holds: "floor" }), "{error}");
+}
+
 /// A force that drives away from a stop leaves no rest, on the stop neither. A position that touches a stop without force has
 /// two sides, and no linear system.
 #[test]
