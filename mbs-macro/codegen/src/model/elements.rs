@@ -20,6 +20,10 @@ use crate::syntax::{Attachment, Element, ElementProperty, Formula, FormulaKind, 
 /// The help for a clearance that comes to 0 without being the number 0.
 const NO_PLAY: &str = "it has to be positive; the joint without play is `clearance = 0`, a number";
 
+/// The help for bristles that slide without friction and stick with some.
+const NO_FRICTION: &str =
+    "what slides without friction has no bristles that stick: leave the largest friction out, or the element";
+
 /// An element with its places found and its properties read.
 struct Resolved {
     first: Placed,
@@ -194,13 +198,18 @@ impl Resolver<'_> {
         if let (Range::Share, [value], [formula]) = (row.range, values.as_slice(), formulas.as_slice()) {
             self.within_one(&format!("the {} of {}", row.name, element.name), *value, formula.span);
         } else if let (true, [value]) = (row.range != Range::All, values.as_slice()) {
+            let has = |name: &str| element.properties.iter().any(|property| property.name == name);
+            let is_divisor = elements::is_divisor(row.name, has);
             self.checks.push(Check {
                 value: *value,
-                is_strict: row.range == Range::Positive,
+                is_strict: row.range == Range::Positive || is_divisor,
                 property: row.name,
                 owner: element.name.to_string(),
                 span: property.name.span(),
-                zero_help: (row.name == "clearance").then_some(NO_PLAY),
+                zero_help: match row.name {
+                    "clearance" => Some(NO_PLAY),
+                    _ => is_divisor.then_some(NO_FRICTION),
+                },
             });
         }
         Some(values)

@@ -30,6 +30,14 @@ pub const PRESLIDING: &str = "presliding";
 const RELAXATION: &str = "relaxation";
 const STRIBECK: &str = "stribeck";
 
+/// The largest friction, and that of sliding.
+const LARGEST: [(&str, &str); 2] = [(STATIC, "coefficient"), (BREAKAWAY, "torque")];
+
+/// True of a friction of sliding by which bristles divide the largest one.
+pub fn is_divisor(property: &str, has: impl Fn(&str) -> bool) -> bool {
+    LARGEST.iter().any(|(most, of)| *of == property && has(most)) && has(PRESLIDING)
+}
+
 /// A law of dry friction.
 struct Law {
     word: &'static str,
@@ -159,8 +167,7 @@ fn is_said(
 
 /// The largest friction stands beside that of sliding. Bristles have the speed at which it is lost, too.
 fn largest_is_said(given: &Given<'_>, word: &str) -> Result<(), Unsaid> {
-    let largest =
-        [(STATIC, "coefficient"), (BREAKAWAY, "torque")].into_iter().find(|(most, _)| given.has(most));
+    let largest = LARGEST.into_iter().find(|(most, _)| given.has(most));
     let missing = match largest {
         Some((most, of)) if !given.has(of) => Some((of, most)),
         Some((most, _)) if word == LUGRE && !given.has(STRIBECK) => Some((STRIBECK, most)),

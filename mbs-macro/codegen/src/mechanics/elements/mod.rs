@@ -16,7 +16,7 @@ mod spring;
 
 pub use contact::{LOOSE_PRISMATIC, LOOSE_REVOLUTE};
 pub use effects::{Effects, Element, Exerts, Sticks};
-pub use friction::{COULOMB, LUGRE, PRESLIDING};
+pub use friction::{COULOMB, LUGRE, PRESLIDING, is_divisor};
 pub use kind::{ElementKind, Freedom, Known, Places};
 pub use law::{FORCE_BETWEEN, LAW, TORQUE_BETWEEN};
 pub use properties::{Given, Property, Range, Unsaid};
