@@ -270,3 +270,23 @@ fn frictions_that_hold_one_motion_are_warned_of() {
     assert!(told.contains("`outer` holds the same motion as `inner`"), "{told}");
     assert_eq!(warnings("(other, ground) { law = coulomb; torque = 3 [N*m]; breakaway = 6 [N*m]; }"), "");
 }
+
+/// A floor that jumps over time takes what is on it along; one that bends hits it.
+#[test]
+fn stops_that_jump_over_time_are_warned_of() {
+    let warnings = |floor: &str| {
+        let text = format!(
+            "Floor {{ dof = 1; body b (y) {{ mass = 1 [kg]; }}
+                table road(s) = [(0 [s], 0 [m]), (1 [s], 0 [m]), (2 [s], 1 [m])] linear outside hold;
+                stop floor: y >= {floor} {{ restitution = 0; }} start {{ y = 2 [m]; }} }}"
+        );
+        let (_, warnings) =
+            Text::declaration("floor.mbs", text).check().unwrap_or_else(|error| panic!("{error}"));
+        warnings.to_string()
+    };
+    for floor in ["if t < 1 [s] { 0 } else { 1 [m] }", "1 [m]*step(t - 1 [s])"] {
+        let told = warnings(&format!("{floor} + road(t)"));
+        assert!(told.contains("the gap of `floor` chooses by time"), "{floor}: {told}");
+    }
+    assert_eq!(warnings("road(t)"), "");
+}

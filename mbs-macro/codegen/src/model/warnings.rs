@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use mbs_symbolic::{Beyond, Expr, Function, Interpolation, Node, SplineId, Stage};
 use proc_macro2::Span;
 
+use super::Stop;
 use super::resolver::Resolver;
 use crate::diagnostics::Diagnostic;
 use crate::syntax::{Declaration, ItemKind, Outside, Points, Table};
@@ -35,6 +36,7 @@ impl Resolver<'_> {
             .into_iter()
             .chain(tables)
             .chain(self.impacts())
+            .chain(self.jumping_stops())
             .chain(self.rates_of_positions())
             .chain(self.never_set(declaration))
             .chain(self.parallel_frictions())
@@ -107,6 +109,31 @@ impl Resolver<'_> {
             found.push(Diagnostic::new(span, message).help(help));
         }
         found
+    }
+
+    /// Stops whose gaps jump at a time: what is at them jumps with them, and comes to be behind them.
+    fn jumping_stops(&self) -> Vec<Diagnostic> {
+        let arena = &self.scope.arena;
+        let sees_time = |expr: Expr| arena.symbols_in(expr).contains(&self.scope.time);
+        let jumps = |expr: Expr| match arena.node(expr) {
+            Node::Call(Function::Greater | Function::Sign, _) => sees_time(expr),
+            Node::Spline(id, ..) => {
+                let spline = arena.splines().get(id.index());
+                sees_time(expr) && spline.is_some_and(|spline| spline.jump(0).is_some())
+            }
+            _ => false,
+        };
+        let is_jumping = |stop: &&Stop| arena.reachable(&[stop.contact.gap]).into_iter().any(jumps);
+        let told = |stop: &Stop| {
+            let name = &stop.quantity.name;
+            let message = format!(
+                "the gap of `{name}` chooses by time: where its values do not meet, what is at it jumps with it, and no \
+                 impact of that is computed"
+            );
+            Diagnostic::new(stop.span, message)
+                .help("let the pieces meet, or take a `linear` table of time, whose bends are impacts")
+        };
+        self.stops.iter().filter(is_jumping).map(told).collect()
     }
 
     /// The largest way that a cubic table goes between two points of equal values.
