@@ -37,10 +37,10 @@ impl Until {
         // stops, frictions that stick and conditions of `when` count down from the last one
         let mut events = (0..info.events.len()).chain((info.events.len()..MOST_EVENTS).rev());
         let wanted = plain(text);
-        if let Some(at) =
-            events.find(|event| info.event_name(*event).is_some_and(|name| plain(name) == wanted))
-        {
-            return Ok(Self { text: text.to_owned(), ending: Ending::Event(at) });
+        let named = |at| Some((at, info.event_name(at).filter(|name| plain(name) == wanted)?));
+        if let Some((at, name)) = events.find_map(named) {
+            // as it is told among the events
+            return Ok(Self { text: name.to_owned(), ending: Ending::Event(at) });
         }
         if let Some(entered) = entered(info, of_mode(text)) {
             return Ok(Self { text: text.to_owned(), ending: Ending::Threshold(entered) });
@@ -86,7 +86,7 @@ impl Until {
     }
 }
 
-/// A name or a condition without blanks, and with the numbers of repeated names as they are declared: `s[2]` is `s_2`.
+/// A name or a condition without blanks, and with the names of parts as they are told: `s[2]` is `s_2`, `left.end` `left_end`.
 fn plain(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
@@ -102,6 +102,8 @@ fn plain(text: &str) -> String {
                 rest = &rest[digits.len() + 1..];
             }
             None if letter.is_whitespace() => {}
+            // no point of a number
+            None if letter == '.' && rest.starts_with(char::is_alphabetic) => plain.push('_'),
             None => plain.push(letter),
         }
     }
@@ -139,10 +141,14 @@ fn no_condition(info: &Info, text: &str) -> Error {
         [] => String::new(),
         names => format!(", or what is declared so ({})", names.join(", ")),
     };
-    Error::Name {
-        name: text.to_owned(),
-        reason: format!("a condition is expected, for instance 'x3 > 200mm' or 'der(theta) < 0'{declared}"),
-    }
+    let is_name = text.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
+    let soft = if is_name {
+        "; a contact, or a stop that gives way, ends a run by an output of its force"
+    } else {
+        ""
+    };
+    let expected = "a condition is expected, for instance 'x3 > 200mm' or 'der(theta) < 0'";
+    Error::Name { name: text.to_owned(), reason: format!("{expected}{declared}{soft}") }
 }
 
 /// The quantity called so, its dimension, and the unit of a bare number.
@@ -225,7 +231,7 @@ mod tests {
         for text in ["theta > 1", "theta>1", "t > 9[s]"] {
             assert!(matches!(read(text), Ok(Ending::Event(_))), "{text}: {:?}", read(text));
         }
-        assert_eq!(plain("force(l.s[12]) > 5 [N]"), "force(l.s_12)>5[N]");
+        assert_eq!(plain("force(l.s[12]) > 5.2 [N]"), "force(l_s_12)>5.2[N]");
         // a bare number is in the unit that tables show
         is("opening > 20", Measured::Output(0), 0.02, Direction::Rising);
         is("lambda(rod) > 3N", Measured::Multiplier(0), 3.0, Direction::Rising);
