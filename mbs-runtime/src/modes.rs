@@ -151,6 +151,15 @@ pub(crate) fn engage<T: Real>(
         do_not_contradict(info, t.to_f64(), locked, after, left)?;
         contacts.add(&impulses, of_v);
         rubbing::note(info, inputs, &struck);
+        // a mode that is entered hits what is rested on; less is the rounding of one that holds
+        for (stop, declared) in info.stops.iter().enumerate() {
+            let impulse = impulses.get(stop).copied().unwrap_or_default();
+            let rate = (contacts.mobility(stop, stop) * impulse).to_f64();
+            let memory = inputs.get_mut(declared.memory + 1);
+            if let Some(sum) = memory.filter(|_| rate > left_of::<T>(contacts.slope(stop) * fastest)) {
+                *sum = *sum + impulse;
+            }
+        }
         Ok(())
     });
     answered.unwrap_or(Ok(()))?;

@@ -181,6 +181,8 @@ pub(super) struct Outcome<T> {
     pub closed: u32,
     /// Λ
     pub impulses: Each<T>,
+    /// The stops that Λ throws back by more than rounding.
+    pub struck: u32,
     /// The time until the next impact in s, as far as the present motion tells.
     pub flight: f64,
 }
@@ -244,9 +246,16 @@ impl<D: Dynamics> Jump<'_, D> {
         let closed = (held | reached) & all_stops(info) | touching;
         let still = self.still(&gaps.acceleration, stopping.size);
         let (impulses, flight) = self.impacts(closed, &still, stopping)?;
+        let struck = self.contacts(|contacts| {
+            those(self.count(), |stop| {
+                let change = contacts.mobility(stop, stop).to_f64() * number(&impulses, stop);
+                change > number(&still, stop)
+            })
+        });
         let before = Before { reached, held, closed, gaps, slopes, still, is_impact: flight.is_some() };
         let [held, closed] = self.rest(&before, stopping)?;
-        Ok(Outcome { held, closed, impulses, flight: flight.unwrap_or(f64::INFINITY) })
+        let (struck, flight) = (struck.unwrap_or(0), flight.unwrap_or(f64::INFINITY));
+        Ok(Outcome { held, closed, impulses, struck, flight })
     }
 
     /// The stops whose gaps are closed, up to rounding.

@@ -359,9 +359,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             }
             Ok((jump.q.clone(), jump.v.clone(), outcome, directions))
         });
-        let (q, v, Outcome { held: now_held, closed, impulses, flight }, directions) = found?;
+        let (q, v, Outcome { held: now_held, closed, impulses, struck, flight }, directions) = found?;
         self.stopping = stopping;
         self.note_struck(&impulses)?;
+        // those that it did not come to by their gaps: at a start, where a mode is entered, where a floor begins to move
+        let known = among(self.happened.all, self.dynamics.equations().info());
+        self.happened.due |= watched_of(struck & !known);
         // a step over many flights would round the first one away
         self.control.next = self.control.next.min(FLIGHTS * flight);
         if !self.happened.is_set {

@@ -101,6 +101,9 @@ impl Started<'_> {
             builder = builder.from_vectors(start_time, q, v);
             builder = if steps_taken > 0 { builder.goes_on() } else { builder };
         }
+        if start.is_looked_at {
+            builder = builder.goes_on();
+        }
         if start.kind == StartKind::Declared {
             builder = builder.as_declared();
         }

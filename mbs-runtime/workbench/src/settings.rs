@@ -169,6 +169,8 @@ pub struct Start {
     /// The state in place of the declared start. It has to be consistent, unless the start is
     /// [`Declared`](StartKind::Declared).
     pub state: Option<StartState>,
+    /// True if the state alone is of interest, before anything happens in it.
+    pub is_looked_at: bool,
     /// Accept gains under which violations grow.
     pub allow_unstable: bool,
 }

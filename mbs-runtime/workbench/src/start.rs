@@ -46,6 +46,7 @@ impl Start {
             threshold: settings.until.as_ref().and_then(Until::threshold),
             kind: settings.start,
             state: None,
+            is_looked_at: false,
             allow_unstable: settings.allow_unstable,
         };
         if settings.from.is_empty() { Ok(start) } else { start.with_values(model, &settings.from) }

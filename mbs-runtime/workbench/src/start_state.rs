@@ -71,7 +71,8 @@ pub(crate) fn with_values(
         .iter()
         .map(|(name, value)| Ok((Place::find(info, name)?.0, *value)))
         .collect::<Result<_, Error>>()?;
-    let run = model.start(&Start { kind: StartKind::Declared, ..start.without_modes(info) })?;
+    let run =
+        model.start(&Start { kind: StartKind::Declared, is_looked_at: true, ..start.without_modes(info) })?;
     let n = info.coordinates.len();
     let (mut q, mut v) = (vec![f64::NAN; n], vec![f64::NAN; n]);
     run.state(&mut q, &mut v);

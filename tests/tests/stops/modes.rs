@@ -1,6 +1,6 @@
 //! Modes: constraints that come and go, against closed forms, beside constraints that stay, and on every path.
 
-use mbs_live::{Run, Text};
+use mbs_live::{Prepared, Run, Text};
 use mbs_runtime::lanes::Pack as Lanes;
 use mbs_runtime::{
     Adaptive, Dop853, Dual, Error, Rattle, Real, Sampled, Simulation, System, Tolerances, TrBdf2, mechanism,
@@ -217,7 +217,7 @@ fn a_program_enters_a_mode() -> Result<(), Error> {
 /// The error of a text in 1 s, to a tolerance and in steps of 10 ms.
 fn errors(text: &str) -> [Option<Error>; 2] {
     let live = Text::declaration("modes.mbs", text).compile().expect("a mechanism");
-    let to_tolerance = Adaptive::builder(mbs_live::Prepared::new(&live)).build();
+    let to_tolerance = Adaptive::builder(Prepared::new(&live)).build();
     let to_tolerance = to_tolerance.and_then(|mut run| run.advance_to(1.0)).err();
     let in_steps = Run::builder(&live, 1e-2).build().and_then(|mut run| run.advance(100).map(drop)).err();
     [to_tolerance, in_steps]
@@ -367,7 +367,7 @@ fn conditions_begin_at_their_limits() -> Result<(), Error> {
 /// The inputs of a text after 1 s: to a tolerance, and in steps of 1 ms.
 fn inputs_after_a_second(text: &str) -> Result<[Vec<f64>; 2], Error> {
     let live = Text::declaration("modes.mbs", text).compile().expect("a mechanism");
-    let mut to_tolerance = Adaptive::builder(mbs_live::Prepared::new(&live)).tolerances(TIGHT).build()?;
+    let mut to_tolerance = Adaptive::builder(Prepared::new(&live)).tolerances(TIGHT).build()?;
     to_tolerance.advance_to(1.0)?;
     let mut in_steps = Run::builder(&live, 1e-3).build()?;
     in_steps.advance(1000)?;
@@ -417,5 +417,34 @@ fn a_mode_that_its_velocity_leaves_is_left_once() -> Result<(), Error> {
     for inputs in inputs_after_a_second(text)? {
         assert_eq!(inputs[..2], [0.0, 1.0]);
     }
+    Ok(())
+}
+
+/// A mode that is entered presses what it leads against what that rests on: Λ = 1 kg · 1 m/s is an impulse of the stop in runs of
+/// both kinds, and to a tolerance one of its events.
+#[test]
+fn a_mode_that_is_entered_hits_what_is_rested_on() -> Result<(), Error> {
+    let text = "Pressed {
+        dof = 2;
+        body a (x) { mass = 1 [kg]; }
+        body b (y) { mass = 1 [kg]; }
+        force push on x = -1 [N];
+        stop wall: x >= 0 [m] { restitution = 0.5; }
+        mode link { rate r: der(x) = der(y); }
+        when y < 0.5 [m] { enter link; }
+        start { y = 1 [m]; der(y) = -1 [m/s]; }
+    }";
+    for inputs in inputs_after_a_second(text)? {
+        assert!(inputs[0] == 1.0 && (inputs[1] - 1.0).abs() < 1e-9, "{inputs:?}");
+    }
+    let live = Text::declaration("pressed.mbs", text).compile().expect("a mechanism");
+    let mut run = Sampled::new(Adaptive::builder(Prepared::new(&live)).build()?, 1.0)?;
+    let mut names = Vec::new();
+    while let Some(event) = run.step_to_event()? {
+        assert!((event.t - 0.5).abs() < 1e-9, "{event:?}");
+        names.push(live.declared_info().event_name(event.index));
+    }
+    names.sort_unstable();
+    assert_eq!(names, [Some("wall"), Some("y < 0.5 [m]")]);
     Ok(())
 }

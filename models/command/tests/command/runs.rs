@@ -424,3 +424,29 @@ fn where_a_mechanism_rests() {
         assert!(!output.status.success() && words.contains(part), "{options}: {words}");
     }
 }
+
+/// A start at a stop hits it, which is the first event of a run. Regression: `--from` took the velocity behind that impact to a
+/// place where nothing is hit.
+#[test]
+fn a_start_at_a_stop_hits_it_where_it_is() {
+    const BALL: &str = "Ball {
+        dof = 1;
+        body ball (y) { mass = 2 [kg]; }
+        stop floor: y >= 0 [m] { restitution = 0.5; }
+        start { y = 0; der(y) = -2 [m/s]; }
+    }";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ball.mbs"), BALL).unwrap();
+    for (from, events, rate, impulse) in
+        [("", 1, 1.0, 6.0), ("--from y=0", 1, 1.0, 6.0), ("--from y=0.5", 0, -2.0, 0.0)]
+    {
+        let output = mbs(folder.path(), &format!("simulate ball.mbs --end 0.1 {from} --out ball.csv --json"));
+        let run: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let found = run["events"].as_array().unwrap();
+        assert!(found.len() == events && found.iter().all(|event| event["t_s"] == 0.0), "{from}: {found:?}");
+        let csv = std::fs::read_to_string(folder.path().join("ball.csv")).unwrap();
+        let last: Vec<f64> =
+            csv.lines().next_back().unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+        assert!((last[2] - rate).abs() < 1e-12 && (last[4] - impulse).abs() < 1e-12, "{from}: {last:?}");
+    }
+}

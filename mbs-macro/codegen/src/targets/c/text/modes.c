@@ -106,6 +106,14 @@ RUBS         if (struck.rubbed[row]) {
 RUBS             NAME_set_friction(run, row, struck.directions[row], 0);
 RUBS         }
 RUBS     }
+    /* a mode that is entered hits what is rested on; less is the rounding of one that holds */
+    for (int stop = 0; stop < CAPS_STOPS; stop++) {
+        real *const sum = NAME_places(&run->inputs) + NAME_memories[stop] + 1;
+        const double rate = (double)(NAME_mobility(contacts, stop, stop) * impulses[stop]);
+        if (rate > NAME_rounding(1e-6) * (NAME_slope(contacts, stop) * fastest)) {
+            *sum = *sum + impulses[stop];
+        }
+    }
     return CAPS_OK;
 }
 
