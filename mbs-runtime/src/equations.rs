@@ -7,6 +7,7 @@
 //! constraint (`phi`, `phi_dot`, `feedback`, `residual`) or per input, in the order of
 //! [`Info`]. The vectors of a step have a component per coordinate that is integrated
 //! ([`Info::states`]). SI units, angles in rad.
+#![doc = include_str!("equations.md")]
 
 pub use crate::described::Described;
 pub use crate::differentiable::{Differentiable, Differentiated, PARTIALS, Partials};

@@ -76,6 +76,35 @@ impl<'a> Sum<'a> {
     /// The same with inputs that change: `signal` gives the value of an input over a step, by the
     /// number of the step and the place of the input in [`Info`]. Without it they are those of the
     /// builder.
+    ///
+    /// # Example
+    /// The speed to which a block is pushed with 2 N for half a second:
+    /// ```
+    /// use mbs_runtime::gradients::{Sum, Variable};
+    /// use mbs_runtime::{Dual, Simulation};
+    /// # use mbs_runtime::mechanism;
+    /// # mechanism! {
+    /// #     pub Block {
+    /// #         dof = 1;
+    /// #         input push [N];
+    /// #         body block (x) { mass = 1 [kg]; }
+    /// #         force pushed on x = push;
+    /// #     }
+    /// # }
+    /// let variables = [Variable::input("push")];
+    /// let signal = |step: u64, _: usize| if step < 500 { 2.0 } else { 0.0 };
+    /// let mut gradient = [0.0];
+    /// let speed = Simulation::builder(Block::declared(), 1e-3).gradient(
+    ///     &Sum::new(1000, &variables).driven_by(&signal),
+    ///     |run: &Simulation<Block<Dual<f64, 1>>>| {
+    ///         Ok(if run.steps() == 1000 { run.state().v.x } else { Dual::default() })
+    ///     },
+    ///     &mut gradient,
+    /// )?;
+    /// // a newton more over the whole second would be 1 m/s more
+    /// assert!((speed - 1.0).abs() < 1e-12 && (gradient[0] - 1.0).abs() < 1e-12);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     #[must_use]
     pub const fn driven_by(self, signal: &'a Signal) -> Self {
         Self { signal: Some(signal), ..self }
@@ -101,6 +130,41 @@ impl<'a> Sum<'a> {
     /// `start` makes the run with some of the variables, `term` is what a state adds to the sum,
     /// and `inputs` has a number per input. For those who write runs of their own; a
     /// [`Builder`](crate::Builder) has [`gradient`](crate::Builder::gradient).
+    ///
+    /// # Example
+    /// Where a run to a tolerance ends after 1 s, by a parameter:
+    /// ```
+    /// use mbs_runtime::gradients::{Seeds, Sum, Variable};
+    /// use mbs_runtime::{Adaptive, Components, Dual, Mechanism, Sampled, System};
+    /// # use mbs_runtime::mechanism;
+    /// # mechanism! {
+    /// #     pub Oscillator {
+    /// #         dof = 1;
+    /// #         param stiffness = 100 [N/m];
+    /// #         body block (x) { mass = 1 [kg]; }
+    /// #         force spring on x = -stiffness*x;
+    /// #         start { x = 0.1 [m]; }
+    /// #     }
+    /// # }
+    /// let start = |seeds: Seeds<'_, 1>| {
+    ///     let mut parameters = [Dual::constant(100.0)];
+    ///     seeds.parameters(&mut parameters);
+    ///     let oscillator = Oscillator::new(OscillatorParameters::from_array(parameters))?;
+    ///     Sampled::new(Adaptive::builder(oscillator).build()?, 0.01)
+    /// };
+    /// let end = |run: &Sampled<_, _>| {
+    ///     let (mut q, mut v) = ([Dual::default()], [Dual::default()]);
+    ///     run.state(&mut q, &mut v);
+    ///     Ok(if run.steps() == 100 { q[0] } else { Dual::default() })
+    /// };
+    /// let (variables, mut gradient) = ([Variable::Parameter("stiffness")], [0.0]);
+    /// let sum = Sum::new(100, &variables);
+    /// let x = sum.differentiate(Oscillator::<f64>::INFO, start, end, &mut [], &mut gradient)?;
+    /// // x = 0.1 cos √k t, ∂x/∂k = −0.1 t sin √k t/(2 √k)
+    /// assert!((x - 0.1 * 10_f64.cos()).abs() < 1e-5);
+    /// assert!((gradient[0] + 0.005 * 10_f64.sin()).abs() < 1e-5);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     ///
     /// # Errors
     /// Those of the run and of `term`, and of [`Builder::gradient`](crate::Builder::gradient).

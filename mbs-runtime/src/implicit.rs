@@ -141,6 +141,32 @@ macro_rules! schemes {
         })*
 
         /// Calls the visitor with the type of a scheme that was chosen at run time. `None` if no type is it.
+        ///
+        /// # Example
+        /// The steps of a scheme that is known as a value only:
+        /// ```
+        /// # use mbs_runtime::{Adaptive, AdaptiveScheme, Error, implicit, mechanism};
+        /// # mechanism! {
+        /// #     pub Sinking {
+        /// #         dof = 1;
+        /// #         gravity = (0, -9.81) [m/s^2];
+        /// #         body weight (y) { mass = 1 [kg]; }
+        /// #         force grease on y = -1e6 [N*s/m]*der(y);
+        /// #     }
+        /// # }
+        /// struct Steps;
+        /// impl implicit::Visitor for Steps {
+        ///     type Result = Result<u64, Error>;
+        ///     fn visit<S: AdaptiveScheme>(self) -> Self::Result {
+        ///         let mut run = Adaptive::builder(Sinking::declared()).scheme::<S>().build()?;
+        ///         run.advance_to(1.0)?;
+        ///         Ok(run.effort().steps)
+        ///     }
+        /// }
+        /// let steps = implicit::with_type(&mbs_runtime::ESDIRK4, Steps).expect("it has a type")?;
+        /// assert!(steps < 100);
+        /// # Ok::<(), Error>(())
+        /// ```
         pub fn with_type<V: Visitor>(scheme: &Implicit, visitor: V) -> Option<V::Result> {
             match scheme.word {
                 $(word if word == $scheme.word => Some(visitor.visit::<$name>()),)*

@@ -10,6 +10,7 @@ pub(crate) const MOST_CONTACTS: usize = 16;
 pub const MOST_EVENTS: usize = 64;
 
 /// A mechanism described for people and tools.
+#[doc = include_str!("info.md")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Info {
@@ -161,6 +162,8 @@ impl Dimension {
     /// let (energy, length, time) = (Dimension::of(1, 2, -2), Dimension::of(0, 1, 0), Dimension::of(0, 0, 1));
     /// assert_eq!(energy.over(length), Dimension::of(1, 1, -2));
     /// assert_eq!(length.over(time), Dimension::of(0, 1, -1));
+    /// let charge = Dimension::from_exponents([0, 0, 1, 1, 0]);
+    /// assert_eq!(energy.over(charge).exponents(), [1, 2, -3, -1, 0]); // V
     /// ```
     #[must_use]
     pub const fn over(self, other: Self) -> Self {

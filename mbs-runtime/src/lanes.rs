@@ -140,6 +140,14 @@ impl<T: Lane, const N: usize> Lanes<T, N> {
     }
 
     /// The lanes of `self` where `mask` is set, those of `other` elsewhere.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::Lanes;
+    /// let (x, y) = (Lanes([1.0, 4.0]), Lanes([3.0, 2.0]));
+    /// let smaller = x.select(x.test(y, |x, y| x < y), y);
+    /// assert_eq!(smaller, Lanes([1.0, 2.0]));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn select(self, mask: [bool; N], other: Self) -> Self {

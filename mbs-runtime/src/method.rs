@@ -64,6 +64,35 @@ macro_rules! schemes {
 
         /// Calls the visitor with the type of a method that was chosen at run time. `None` if
         /// no type has its scheme.
+        ///
+        /// # Example
+        /// The energy that a run loses by a method chosen at run time:
+        /// ```
+        /// # use mbs_runtime::{Error, Explicit, Method, MethodVisitor, Simulation, mechanism};
+        /// # mechanism! {
+        /// #     pub Pendulum {
+        /// #         dof = 1;
+        /// #         param length = 1 [m];
+        /// #         gravity = (0, -9.81) [m/s^2];
+        /// #         body bob (x, y) { mass = 2 [kg]; }
+        /// #         constraint rod: x^2 + y^2 = length^2;
+        /// #         start { x = length; guess y = 0; }
+        /// #     }
+        /// # }
+        /// struct Lost;
+        /// impl MethodVisitor for Lost {
+        ///     type Result = Result<f64, Error>;
+        ///     fn visit<X: Method>(self) -> Self::Result {
+        ///         let mut swing = Simulation::builder(Pendulum::declared(), 1e-3).method::<X>().build()?;
+        ///         swing.advance_to(1.0)?;
+        ///         Ok(swing.energy())
+        ///     }
+        /// }
+        /// let method = Explicit::held(&mbs_runtime::RK4);
+        /// let lost = mbs_runtime::with_type(method, Lost).expect("every scheme has a type")?;
+        /// assert!(lost.abs() < 1e-9);
+        /// # Ok::<(), Error>(())
+        /// ```
         pub fn with_type<V: MethodVisitor>(method: Explicit, visitor: V) -> Option<V::Result> {
             let Explicit { tableau, stabilization } = method;
             $(if $tableau.is(tableau) {

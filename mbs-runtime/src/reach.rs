@@ -18,6 +18,27 @@ const NEWTON_ITERATIONS: usize = 30;
 /// The corrections are the differences of accelerations with and without feedback, in a
 /// state at rest, so that no velocity adds to their rounding.
 ///
+/// # Example
+/// A drive that pulls an arm of 1 m out to 2t:
+/// ```
+/// use mbs_runtime::equations::{Room, reach};
+/// use mbs_runtime::{Error, Mechanism, mechanism};
+/// # mechanism! {
+/// #     pub Arm {
+/// #         dof = 0;
+/// #         body tip (x, y) { mass = 2 [kg]; }
+/// #         constraint rod: x^2 + y^2 = 1 [m^2];
+/// #         drive pull: x = 2 [m/s]*t;
+/// #         start { guess y = -1 [m]; }
+/// #     }
+/// # }
+/// let mut numbers = vec![0.0; Room::<f64>::len(Arm::<f64>::INFO, 0)];
+/// let mut room = Room::within(&mut numbers, Arm::<f64>::INFO);
+/// let mut at = |t| reach(&Arm::declared(), t, &[0.8, -0.6], &[], 1e-3, &mut room);
+/// assert!(at(0.45).is_ok());
+/// assert!(matches!(at(0.55), Err(Error::OutOfReach { .. })));
+/// ```
+///
 /// # Errors
 /// [`Error::OutOfReach`].
 pub fn reach<T: Real>(

@@ -367,6 +367,16 @@ pub(crate) fn note_risen<T: Real>(
 
 /// `Ok` if outputs are finite, at the time `t`.
 ///
+/// # Example
+/// ```
+/// # use mbs_runtime::{Error, Mechanism, equations::check_outputs, mechanism};
+/// # mechanism! { pub Fall { dof = 1; body ball (y) { mass = 1 [kg]; } output height [m] = y; } }
+/// let info = Fall::<f64>::INFO;
+/// assert!(check_outputs(info, 0.5, &[1.0]).is_ok());
+/// let refused = check_outputs(info, 0.5, &[f64::NAN]);
+/// assert!(matches!(refused, Err(Error::Undefined { name: "height", .. })));
+/// ```
+///
 /// # Errors
 /// [`Error::Undefined`] that names the first one that is not.
 pub fn check_outputs<T: Real>(info: &Info, t: T, outputs: &[T]) -> Result<(), Error> {

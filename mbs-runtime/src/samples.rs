@@ -14,6 +14,26 @@ const ROUNDINGS: f64 = 8.0;
 const MOST_PARTS: u32 = 10_000;
 
 /// The steps of a run with a constant step, by which clocks are told.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::equations::Grid;
+/// # mbs_runtime::mechanism! {
+/// #     pub Regulated {
+/// #         dof = 1;
+/// #         body rotor (angle = theta) { inertia = 1e-4 [kg*m^2]; }
+/// #         memory torque [N*m] = 0;
+/// #         every 1 [ms] { set torque = -1e-3 [N*m*s]*der(theta); }
+/// #         torque motor on rotor = torque;
+/// #     }
+/// # }
+/// let grid = Grid { start: 0.0, step: 0.3e-3 };
+/// assert!(grid.check(&Regulated::declared()).is_err());
+/// // steps that lead from sample to sample, every millisecond
+/// let fitted = grid.fitted([[1e-3, 0.0]].into_iter(), f64::EPSILON).expect("1 ms has parts");
+/// assert_eq!(fitted.step, 0.25e-3);
+/// assert_eq!(fitted.steps_to_sample(1, &Regulated::declared()), 3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     /// The time of the start in s.

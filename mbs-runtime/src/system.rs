@@ -30,10 +30,10 @@ use crate::{Derivation, Effort, Error, Event, Real, Sketch};
 /// #         start { x = length; guess y = 0; }
 /// #     }
 /// # }
-/// fn lowest(run: &mut dyn System, steps: u64) -> Result<f64, mbs_runtime::Error> {
+/// fn lowest(run: &mut dyn System, end: f64) -> Result<f64, mbs_runtime::Error> {
 ///     let n = run.equations().info().coordinates.len();
 ///     let (mut q, mut v, mut lowest) = (vec![0.0; n], vec![0.0; n], f64::INFINITY);
-///     for _ in 0..steps {
+///     for _ in 0..run.steps_to(end)? {
 ///         run.step()?;
 ///         run.state(&mut q, &mut v);
 ///         lowest = lowest.min(q[1]);
@@ -41,7 +41,7 @@ use crate::{Derivation, Effort, Error, Event, Real, Sketch};
 ///     Ok(lowest)
 /// }
 /// let mut swing = Simulation::new(Pendulum::declared(), 1e-3)?;
-/// assert!((lowest(&mut swing, 1000)? + 1.0).abs() < 1e-5);
+/// assert!((lowest(&mut swing, 1.0)? + 1.0).abs() < 1e-5);
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
 pub trait System<T: Real = f64>: Send {

@@ -26,6 +26,18 @@ const REMEMBERED_FROM: f64 = 64.0;
 /// comparison of a healthy step. A growth is over it that has risen by a quarter within a
 /// step, or that has doubled since its pivot was looked for. Such a step is examined:
 /// whether its constraints can still be met, and which pivot it is.
+///
+/// # Example
+/// ```
+/// use mbs_runtime::equations::Watch;
+///
+/// let mut watch = Watch::new(f64::INFINITY);
+/// assert!(!watch.is_new(10.0) && watch.is_new(100.0));
+/// watch.remember(100.0, 0.3, None);
+/// watch.note_examined(100.0);
+/// // the next one has to be twice as large
+/// assert_eq!((watch.worst, watch.remembered_from()), (100.0, 200.0));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Watch<T> {
     /// A growth over this is examined.

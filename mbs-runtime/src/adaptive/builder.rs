@@ -53,6 +53,24 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
     }
 
     /// Lets it take so many steps at most, after which it ends with [`Error::TooManySteps`].
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Adaptive, Error, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let mut swing = Adaptive::builder(Pendulum::declared()).most_steps(5).build()?;
+    /// assert!(matches!(swing.advance_to(10.0), Err(Error::TooManySteps { steps: 5, .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn most_steps(self, most_steps: u64) -> Self {
         Self { most_steps, ..self }
@@ -74,6 +92,29 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
 
     /// Makes the given start consistent as a declared one is: the coordinates that the declaration
     /// gives keep their values, the others move to the constraints.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Adaptive, Error, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = 0.6 [m]; guess y = 0.7 [m]; }
+    /// #     }
+    /// # }
+    /// let tilted = Adaptive::builder(Pendulum::declared()).from_vectors(0.0, [0.6, 0.7], [0.0; 2]);
+    /// assert!(matches!(tilted.clone().build(), Err(Error::Inconsistent { constraint: "rod", .. })));
+    /// let kept = tilted.clone().as_declared().build()?;
+    /// assert_eq!(kept.state().q.y, 0.7);
+    /// // the declaration gives x, and y is a guess
+    /// let moved = tilted.made_consistent().build()?.state().q;
+    /// assert!(moved.x == 0.6 && (moved.y - 0.8).abs() < 1e-14);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn made_consistent(mut self) -> Self {
         self.beginning.start = Start::Declared;

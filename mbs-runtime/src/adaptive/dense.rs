@@ -4,6 +4,23 @@ use crate::equations::At;
 use crate::{Real, vectors};
 
 /// Time, q, v and q̈ at an end of a step.
+///
+/// # Example
+/// A free fall is met everywhere between two of its moments:
+/// ```
+/// use mbs_runtime::Moment;
+///
+/// let at = |t: f64| Moment { t, q: [1.0 - 4.905 * t * t], v: [-9.81 * t], a: [-9.81] };
+/// let (start, end, between) = (at(0.0), at(0.4), at(0.1));
+/// let (mut q, mut v) = ([0.0], [0.0]);
+/// start.interpolate(&end, 0.1, &mut q, &mut v);
+/// assert!((q[0] - between.q[0]).abs() < 1e-15 && (v[0] - between.v[0]).abs() < 1e-15);
+/// // without terms of a scheme, cubics remain
+/// start.interpolate_by(&[[[0.0]; 2]; 4], &end, 0.1, &mut q, &mut v);
+/// assert!((q[0] - between.q[0]).abs() < 1e-15 && (v[0] - between.v[0]).abs() < 1e-15);
+/// // a step over a corner is as short as rounding
+/// assert!(at(1.0).is_instant(&at(1.0 + 1e-15)) && !start.is_instant(&end));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<T, V> {
     /// Time in s.

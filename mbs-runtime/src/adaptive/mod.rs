@@ -114,6 +114,11 @@ const LONGEST: f64 = 1.0;
 /// // the motion within the last step
 /// let before = swing.at(bottom - 1e-3)?;
 /// assert!((before.q.x / before.v.x + 1e-3).abs() < 1e-8);
+/// // back within it, and on from there
+/// swing.rewind_to(bottom - 1e-3)?;
+/// assert!(swing.time() < bottom && swing.next_step() > 1e-3);
+/// swing.advance_to(bottom)?;
+/// assert!(swing.state().q.x.abs() < 1e-9);
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
 ///

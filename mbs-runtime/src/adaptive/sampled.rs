@@ -46,6 +46,9 @@ const AT_END: f64 = 1e-6;
 /// }
 /// // a second in a hundred samples, and in fewer steps
 /// assert!(samples.time() == 1.0 && samples.run().effort().steps < 40);
+/// // from here on ten times as many
+/// samples.set_interval(1e-3)?;
+/// assert_eq!((samples.step_size(), samples.steps_to(1.1)?), (1e-3, 100));
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone)]

@@ -40,12 +40,57 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStepBuilder<D, K> {
 
     /// Goes on with a run that has taken so many steps: the given state is that at t + n·h, where t is the time at
     /// which that run started.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Components, Rattle, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let mut swing = Rattle::builder(Pendulum::declared(), 0.01).build()?;
+    /// swing.advance_to(0.5)?;
+    /// let (q, v) = (swing.state().q.into_array(), swing.state().v.into_array());
+    /// let other = Rattle::builder(Pendulum::declared(), 0.01)
+    ///     .from_vectors(0.0, q, v)
+    ///     .steps_taken(swing.steps())
+    ///     .build()?;
+    /// assert_eq!((other.time(), other.state()), (swing.time(), swing.state()));
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     #[must_use]
     pub fn steps_taken(self, steps_taken: u64) -> Self {
         Self { steps_taken, ..self }
     }
 
     /// Keeps the start as it is, consistent or not; the first step leads to the constraints.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Rattle, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let beside = Rattle::builder(Pendulum::declared(), 0.01).from_vectors(0.0, [0.6, 0.79], [0.0; 2]);
+    /// let mut swing = beside.as_declared().build()?;
+    /// assert_eq!(swing.state().q.y, 0.79);
+    /// swing.step()?;
+    /// assert!(swing.violation() < 1e-14);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     #[must_use]
     pub fn as_declared(mut self) -> Self {
         self.beginning.start = Start::Unchecked;

@@ -15,6 +15,33 @@ use crate::straight::Straight;
 use crate::{Components, Mechanism, State};
 
 /// `N` instances at an instant.
+///
+/// # Example
+/// ```
+/// # use mbs_runtime::{Lanes, Mechanism, Pack, Simulation, mechanism};
+/// # mechanism! {
+/// #     pub Pendulum {
+/// #         dof = 1;
+/// #         param length = 1 [m];
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body bob (x, y) { mass = 2 [kg]; }
+/// #         constraint rod: x^2 + y^2 = length^2;
+/// #         start { x = length; guess y = 0; }
+/// #     }
+/// # }
+/// let short = PendulumParameters { length: 0.5 };
+/// let runs = [
+///     Simulation::new(Pendulum::new(short)?, 1e-3)?,
+///     Simulation::new(Pendulum::declared(), 1e-3)?,
+/// ];
+/// let mut pack = Pack::new(runs);
+/// assert_eq!(pack.advance(500), 500);
+/// let all = pack.snapshot();
+/// assert_eq!(all.time(), Lanes([0.5; 2]));
+/// assert_eq!(all.state().q.x.0, [pack.state(0).q.x, pack.state(1).q.x]);
+/// assert!(all.violation() < Lanes([1e-5; 2]) && all.velocity_violation() < Lanes([1e-3; 2]));
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
 #[derive(Clone, Copy)]
 pub struct Snapshot<'a, M: Mechanism<Real: Lane>, const N: usize> {
     pub(super) instances: &'a Instances<M, N>,

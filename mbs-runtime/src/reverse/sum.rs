@@ -63,6 +63,43 @@ impl Sum<'_> {
     /// take that are kept. For those who write runs of their own; a [`Builder`](crate::Builder) has
     /// [`gradient_in_reverse`](crate::Builder::gradient_in_reverse), where this is explained.
     ///
+    /// # Example
+    /// The end of a throw with drag, by the drag:
+    /// ```
+    /// use mbs_runtime::gradients::{Seeds, Sum, Variable};
+    /// use mbs_runtime::reverse::{Moment, PARTIALS};
+    /// use mbs_runtime::{Components, Dual, Mechanism, Simulation};
+    /// # use mbs_runtime::mechanism;
+    /// # mechanism! {
+    /// #     pub Throw {
+    /// #         dof = 1;
+    /// #         gradients = reverse;
+    /// #         param c = 0.5 [N*s/m];
+    /// #         body ball (x) { mass = 1 [kg]; }
+    /// #         force drag on x = -c*der(x);
+    /// #         start { x = 0; der(x) = 3 [m/s]; }
+    /// #     }
+    /// # }
+    /// let start = |seeds: Seeds<'_, PARTIALS>| {
+    ///     let mut parameters = [Dual::constant(0.5)];
+    ///     seeds.parameters(&mut parameters);
+    ///     Simulation::new(Throw::new(ThrowParameters::from_array(parameters))?, 1e-3)
+    /// };
+    /// let mut term = |moment: &mut Moment<'_>| {
+    ///     let is_end = moment.step == 1000;
+    ///     moment.by_q[0] = f64::from(is_end);
+    ///     Ok(if is_end { moment.at.q[0] } else { 0.0 })
+    /// };
+    /// let (variables, mut gradient) = ([Variable::Parameter("c")], [0.0]);
+    /// let (sum, mut run) = (Sum::new(1000, &variables), Simulation::new(Throw::declared(), 1e-3)?);
+    /// let way = sum.differentiate_in_reverse(&mut run, start, 1 << 20, &mut term, &mut gradient)?;
+    /// // x = v (1 − exp(−ct))/c
+    /// let decay = (-0.5_f64).exp();
+    /// assert!((way - 6.0 * (1.0 - decay)).abs() < 1e-6);
+    /// assert!((gradient[0] - 3.0 * (2.0 * decay - 4.0 * (1.0 - decay))).abs() < 1e-6);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// As there.
     pub fn differentiate_in_reverse<R: System<Dual<f64, PARTIALS>>>(

@@ -133,6 +133,26 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
     /// Keeps the start as it is, even if it violates Φ = 0 or Φ̇ = 0: the declared one,
     /// which is made [`consistent`](start::consistent) else, or that of
     /// [`from_state`](Self::from_state), which is refused else.
+    ///
+    /// # Example
+    /// A start beside the rod, which the feedback leads back to it:
+    /// ```
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = 1 [m^2];
+    /// #         start { y = 0; guess x = 1.001 [m]; }
+    /// #     }
+    /// # }
+    /// let mut swing = Simulation::builder(Pendulum::declared(), 1e-3).as_declared().build()?;
+    /// assert_eq!(swing.state().q.x, 1.001);
+    /// swing.advance_to(0.1)?;
+    /// assert!(swing.violation() < 1e-6 && swing.velocity_violation() < 1e-3);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     #[must_use]
     pub fn as_declared(mut self) -> Self {
         self.start = Start::Unchecked;
@@ -147,6 +167,27 @@ impl<M: Mechanism, X: Method> Builder<M, X> {
     }
 
     /// Accepts gains under which violations grow, for the study of them.
+    ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Baumgarte, Error, PerStage, Simulation, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let gains = Baumgarte::<PerStage>::new(2600.0, 2000.0)?;
+    /// let builder = Simulation::builder(Pendulum::declared(), 0.5e-3).baumgarte(gains);
+    /// assert!(matches!(builder.build(), Err(Error::UnstableGains { .. })));
+    /// let swing = builder.allow_unstable().build()?;
+    /// assert_eq!(swing.baumgarte().alpha(), 2600.0);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn allow_unstable(mut self) -> Self {
         self.allow_unstable = true;

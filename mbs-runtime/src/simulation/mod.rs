@@ -39,6 +39,7 @@ use crate::{Baumgarte, Components, Error, Gains, Held, Mechanism, Method, Reacti
 /// let mut swing = Simulation::new(Pendulum::declared(), 1e-3)?;
 /// swing.advance_to(0.5)?;
 /// assert!(swing.state().q.y < 0.0);
+/// assert_eq!(swing.time(), swing.steps() as f64 * swing.step_size());
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -155,6 +156,32 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// In a healthy position every pivot adds about 2. Where a mechanism comes close to a
     /// singular position it is the factor by which rounding errors are magnified; see
     /// [`digits_left`](Self::digits_left) and [`worst_place`](Self::worst_place).
+    ///
+    /// # Example
+    /// Both stages of a step with Heun's method divide by the cosine of the angle of the rod:
+    /// ```
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     pub SliderCrank {
+    /// #         dof = 0;
+    /// #         const crank = 1 [m];
+    /// #         const rod = 1.25 [m];
+    /// #         body wheel (angle = phi) { inertia = 1 [kg*m^2]; }
+    /// #         body link (angle = psi) { inertia = 1 [kg*m^2]; }
+    /// #         body slider (x) { mass = 1 [kg]; }
+    /// #         constraint guide: crank*sin(phi) + rod*sin(psi) = 0;
+    /// #         constraint pin: x = crank*cos(phi) + rod*cos(psi);
+    /// #         drive motor: phi = 1 [rad/s]*t;
+    /// #         start { guess x = 2 [m]; }
+    /// #     }
+    /// # }
+    /// let mut run = Simulation::new(SliderCrank::declared(), 0.01)?;
+    /// run.advance_to(2.0)?;
+    /// // the crank is upright at 1.57 s: sin ψ = −1/1.25, cos ψ = 0.6
+    /// assert!((run.worst_growth() - 2.0 / 0.6).abs() < 0.03);
+    /// assert!((run.digits_left() + (f64::EPSILON * run.worst_growth()).log10()).abs() < 1e-12);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     pub fn worst_growth(&self) -> M::Real {
         self.watch.worst
     }
@@ -213,6 +240,27 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
 
     /// q̈ and λ of the present state with the feedback terms left in, as the
     /// first stage of a step sees them.
+    ///
+    /// # Example
+    /// At rest beside the rod there is nothing to feel, but a violation Φ to remove:
+    /// ```
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = 1 [m^2];
+    /// #         start { y = 0; guess x = 1.001 [m]; }
+    /// #     }
+    /// # }
+    /// let rest = Simulation::builder(Pendulum::declared(), 1e-3).as_declared().build()?;
+    /// assert_eq!(rest.reactions()?.acceleration.x, 0.0);
+    /// // 2x ẍ = −β²Φ
+    /// let beta = rest.baumgarte().beta();
+    /// let expected = -beta * beta * rest.violation() / (2.0 * 1.001);
+    /// assert!((rest.raw_reactions()?.acceleration.x - expected).abs() < 1e-9);
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`reactions`](Self::reactions).

@@ -191,6 +191,26 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
 
     /// How many steps [`advance_to`](Self::advance_to) would take.
     ///
+    /// # Example
+    /// ```
+    /// # use mbs_runtime::{Simulation, mechanism};
+    /// # mechanism! {
+    /// #     pub Pendulum {
+    /// #         dof = 1;
+    /// #         param length = 1 [m];
+    /// #         gravity = (0, -9.81) [m/s^2];
+    /// #         body bob (x, y) { mass = 2 [kg]; }
+    /// #         constraint rod: x^2 + y^2 = length^2;
+    /// #         start { x = length; guess y = 0; }
+    /// #     }
+    /// # }
+    /// let mut swing = Simulation::new(Pendulum::declared(), 1e-3)?;
+    /// assert_eq!(swing.steps_to(0.2504)?, 250);
+    /// swing.advance_to(0.2504)?;
+    /// assert_eq!((swing.steps(), swing.steps_to(0.2504)?), (250, 0));
+    /// # Ok::<(), mbs_runtime::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::EndTime`], or [`Error::Time`] if it is so far away that time would stand
     /// still before.

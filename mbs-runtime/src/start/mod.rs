@@ -17,6 +17,28 @@ use crate::{Components, Error, Mechanism, State};
 /// Positions come from a damped Newton iteration, velocities from one linear
 /// solve and one refinement of it.
 ///
+/// # Example
+/// ```
+/// # use mbs_runtime::{Mechanism, mechanism, start};
+/// # mechanism! {
+/// #     pub Pendulum {
+/// #         dof = 1;
+/// #         param length = 1 [m];
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body bob (x, y) { mass = 2 [kg]; }
+/// #         constraint rod: x^2 + y^2 = length^2;
+/// #         start { x = 0.6 [m]; guess y = 0.7 [m]; }
+/// #     }
+/// # }
+/// let pendulum = Pendulum::declared();
+/// let mut guess = pendulum.declared_start();
+/// guess.q.x = 0.8;
+/// let start = start::consistent(&pendulum, &guess)?;
+/// // the declaration gives x, which keeps its value
+/// assert!(start.q.x == 0.8 && (start.q.y - 0.6).abs() < 1e-14);
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
+///
 /// # Errors
 /// [`Error::NotAssembled`] if Φ = 0 is not reached, [`Error::Singular`] if the
 /// constraints depend on each other on the way.
@@ -48,6 +70,28 @@ pub fn assemble<M: Mechanism>(
 }
 
 /// Velocities on Φ_q v = −Φ_t near `at.v`.
+///
+/// # Example
+/// ```
+/// # use mbs_runtime::{Mechanism, mechanism, start};
+/// # mechanism! {
+/// #     pub Pendulum {
+/// #         dof = 1;
+/// #         param length = 1 [m];
+/// #         gravity = (0, -9.81) [m/s^2];
+/// #         body bob (x, y) { mass = 2 [kg]; }
+/// #         constraint rod: x^2 + y^2 = length^2;
+/// #         start { x = length; guess y = 0; }
+/// #     }
+/// # }
+/// let pendulum = Pendulum::declared();
+/// let mut at = pendulum.declared_start();
+/// (at.q.x, at.q.y, at.v.x, at.v.y) = (0.6, 0.8, 1.0, 1.0);
+/// let v = start::project_velocities(&pendulum, &at)?;
+/// // along the circle, (0.8, −0.6), it was 0.2 m/s
+/// assert!((v.x - 0.16).abs() < 1e-14 && (v.y + 0.12).abs() < 1e-14);
+/// # Ok::<(), mbs_runtime::Error>(())
+/// ```
 ///
 /// # Errors
 /// [`Error::Singular`].
