@@ -151,7 +151,7 @@ pub(crate) fn engage<T: Real>(
         do_not_contradict(info, t.to_f64(), locked, after, left)?;
         contacts.add(&impulses, of_v);
         rubbing::note(info, inputs, &struck);
-        // a mode that is entered hits what is rested on; less is the rounding of one that holds
+        // the entry of a mode hits what is rested on; a smaller impulse is the rounding of a mode that holds
         for (stop, declared) in info.stops.iter().enumerate() {
             let impulse = impulses.get(stop).copied().unwrap_or_default();
             let rate = (contacts.mobility(stop, stop) * impulse).to_f64();

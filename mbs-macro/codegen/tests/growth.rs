@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use mbs_codegen::targets::{Scalar, c};
 
-/// How long the C code of a valid declaration is, whose instructions stand in the order in which they were found.
+/// The length of the C code of a valid declaration. Its instructions stand in the order in which they were found.
 fn length(declaration: &str) -> usize {
     let tokens = declaration.parse().expect("tokens");
     let start = Instant::now();

@@ -362,7 +362,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let (q, v, Outcome { held: now_held, closed, impulses, struck, flight }, directions) = found?;
         self.stopping = stopping;
         self.note_struck(&impulses)?;
-        // those that it did not come to by their gaps: at a start, where a mode is entered, where a floor begins to move
+        // stops that were hit without an event of their gap: at a start, at the entry of a mode, where a floor begins to move
         let known = among(self.happened.all, self.dynamics.equations().info());
         self.happened.due |= watched_of(struck & !known);
         // a step over many flights would round the first one away

@@ -111,7 +111,7 @@ impl Resolver<'_> {
         found
     }
 
-    /// Stops whose gaps jump at a time: what is at them jumps with them, and comes to be behind them.
+    /// Stops whose gaps jump at a time. A body that rests on one jumps with it; one that flies comes to be behind it.
     fn jumping_stops(&self) -> Vec<Diagnostic> {
         let arena = &self.scope.arena;
         let sees_time = |expr: Expr| arena.symbols_in(expr).contains(&self.scope.time);
@@ -127,8 +127,8 @@ impl Resolver<'_> {
         let told = |stop: &Stop| {
             let name = &stop.quantity.name;
             let message = format!(
-                "the gap of `{name}` chooses by time: where its values do not meet, what is at it jumps with it, and no \
-                 impact of that is computed"
+                "the gap of `{name}` chooses by time: where its values do not meet, a body that rests on it jumps with it, \
+                 and no impact is computed"
             );
             Diagnostic::new(stop.span, message)
                 .help("let the pieces meet, or take a `linear` table of time, whose bends are impacts")

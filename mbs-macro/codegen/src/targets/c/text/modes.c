@@ -106,7 +106,7 @@ RUBS         if (struck.rubbed[row]) {
 RUBS             NAME_set_friction(run, row, struck.directions[row], 0);
 RUBS         }
 RUBS     }
-    /* a mode that is entered hits what is rested on; less is the rounding of one that holds */
+    /* the entry of a mode hits what is rested on; a smaller impulse is the rounding of a mode that holds */
     for (int stop = 0; stop < CAPS_STOPS; stop++) {
         real *const sum = NAME_places(&run->inputs) + NAME_memories[stop] + 1;
         const double rate = (double)(NAME_mobility(contacts, stop, stop) * impulses[stop]);

@@ -71,7 +71,7 @@ class Modes extends Sticking {
     this.addResponses(impulses, 0, ofV);
     add(this.v, 1, ofV);
     this.noteDirections(struck.rubbed, struck.directions);
-    // a mode that is entered hits what is rested on; less is the rounding of one that holds
+    // the entry of a mode hits what is rested on; a smaller impulse is the rounding of a mode that holds
     this.tables.stops.forEach((memory, stop) => {
       const isHit = this.isStop(stop) && this.mobility(stop, stop) * impulses[stop] > 1e-6 * (this.slope(stop) * fastest);
       if (isHit) this.inputs[memory + 1] = this.inputs[memory + 1] + impulses[stop];
