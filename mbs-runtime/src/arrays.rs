@@ -5,7 +5,7 @@
 use mbs_interface::Stabilization;
 
 use crate::explicit::{self, Slopes, Span, correct, project};
-use crate::{Accelerations, Components, Gains, Mechanism, Method, Real, Scheme, Stabilized, State};
+use crate::{Accelerations, Components, Mechanism, Method, Real, Scheme, Stabilized, State};
 
 /// The coordinates of a mechanism as an array.
 pub type Coordinates<M> = <<M as Mechanism>::Coordinates as Components>::Array;
@@ -14,80 +14,53 @@ pub type States<M> = <<M as Mechanism>::States as Components>::Array;
 /// One number per constraint as an array.
 pub type Constraints<M> = <<M as Mechanism>::Constraints as Components>::Array;
 
-/// Room for a step on arrays.
-pub struct Room<M: OnArrays> {
+/// Room for a step on arrays. `L` is an array for results that loops hand to each other.
+pub struct Room<M: Mechanism, L> {
     /// One vector of states.
     pub states: States<M>,
     /// One number per constraint.
     pub constraints: Constraints<M>,
     /// Results that loops hand to each other.
-    pub slots: M::Slots,
+    pub slots: L,
 }
 
-/// The stages of a mechanism whose programs became loops.
-pub trait OnArrays: Mechanism {
-    /// An array for what loops hand to each other.
-    type Slots;
-
+impl<M: Mechanism, L> Room<M, L> {
     /// Room that is filled with zeros.
-    fn room() -> Room<Self>;
-
-    /// [`stabilized`](Mechanism::stabilized): q̈, the feedback, and as its value the growth.
-    ///
-    /// `feedback` is given as zeros, or as this function left it: where it always is 0, as of rows
-    /// that give a coordinate, nothing is written.
-    #[allow(clippy::too_many_arguments, reason = "the arrays of one stage")]
-    fn stabilized_on_arrays(
-        &self,
-        t: Self::Real,
-        q: &States<Self>,
-        v: &States<Self>,
-        inputs: &Self::Inputs,
-        gains: &Gains<Self::Real>,
-        acceleration: &mut States<Self>,
-        feedback: &mut Constraints<Self>,
-        slots: &mut Self::Slots,
-    ) -> Self::Real;
-
-    /// [`constrained`](Mechanism::constrained): q̈, and as its value the growth.
-    #[allow(clippy::too_many_arguments, reason = "the arrays of one stage")]
-    fn constrained_on_arrays(
-        &self,
-        t: Self::Real,
-        q: &States<Self>,
-        v: &States<Self>,
-        inputs: &Self::Inputs,
-        feedback: &Constraints<Self>,
-        acceleration: &mut States<Self>,
-        slots: &mut Self::Slots,
-    ) -> Self::Real;
+    #[inline(always)]
+    pub fn new(slots: L) -> Self {
+        let zero = M::Real::default();
+        let (states, constraints) = (M::States::splat(zero), M::Constraints::splat(zero));
+        Self { states: states.into_array(), constraints: constraints.into_array(), slots }
+    }
 }
 
-/// [`Mechanism::stabilized`] of such a mechanism.
-pub fn stabilized<M: OnArrays>(
-    mechanism: &M,
+/// The place of a stage: t, q and v of the states.
+pub type Place<'a, M> = (<M as Mechanism>::Real, &'a States<M>, &'a States<M>);
+
+/// [`Mechanism::stabilized`] by a stage on arrays, which writes q̈ and the feedback, and returns the growth.
+///
+/// The stage is given the feedback as zeros, or as it left it: where it always is 0, as of rows that give a
+/// coordinate, nothing is written.
+pub fn stabilized<M: Mechanism, L>(
     at: &State<M::States>,
-    inputs: &M::Inputs,
-    gains: &Gains<M::Real>,
+    Room { states: mut a, constraints: mut feedback, mut slots }: Room<M, L>,
+    stage: impl FnOnce(Place<'_, M>, &mut States<M>, &mut Constraints<M>, &mut L) -> M::Real,
 ) -> Stabilized<M::States, M::Constraints> {
-    let Room { states: mut a, constraints: mut feedback, mut slots } = M::room();
     let (q, v) = (at.q.into_array(), at.v.into_array());
-    let growth =
-        mechanism.stabilized_on_arrays(at.t, &q, &v, inputs, gains, &mut a, &mut feedback, &mut slots);
+    let growth = stage((at.t, &q, &v), &mut a, &mut feedback, &mut slots);
     let (acceleration, feedback) = (Components::from_array(a), Components::from_array(feedback));
     Stabilized { acceleration, feedback, growth }
 }
 
-/// [`Mechanism::constrained`] of such a mechanism.
-pub fn constrained<M: OnArrays>(
-    mechanism: &M,
+/// [`Mechanism::constrained`] by a stage on arrays, which writes q̈ with some feedback, and returns the growth.
+pub fn constrained<M: Mechanism, L>(
     at: &State<M::States>,
-    inputs: &M::Inputs,
     feedback: &M::Constraints,
+    Room { states: mut a, mut slots, .. }: Room<M, L>,
+    stage: impl FnOnce(Place<'_, M>, &Constraints<M>, &mut States<M>, &mut L) -> M::Real,
 ) -> Accelerations<M::States> {
-    let Room { states: mut a, mut slots, .. } = M::room();
     let (q, v, feedback) = (at.q.into_array(), at.v.into_array(), feedback.into_array());
-    let growth = mechanism.constrained_on_arrays(at.t, &q, &v, inputs, &feedback, &mut a, &mut slots);
+    let growth = stage((at.t, &q, &v), &feedback, &mut a, &mut slots);
     Accelerations { acceleration: Components::from_array(a), growth }
 }
 
@@ -95,16 +68,14 @@ pub fn constrained<M: OnArrays>(
 /// stages, added. If that is over the alarm, or something not finite, the state is left as it
 /// was.
 #[inline(never)]
-pub fn step<M: OnArrays, X: Method>(
+pub fn step<M: Mechanism, X: Method, L>(
     mechanism: &M,
     state: &mut State<M::States>,
-    inputs: &M::Inputs,
-    gains: &Gains<M::Real>,
-    h: M::Real,
-    t_next: M::Real,
-    alarm: M::Real,
+    [h, t_next, alarm]: [M::Real; 3],
+    Room { states: zeros, constraints: mut feedback, mut slots }: Room<M, L>,
+    mut stabilized: impl FnMut(Place<'_, M>, &mut States<M>, &mut Constraints<M>, &mut L) -> M::Real,
+    mut constrained: impl FnMut(Place<'_, M>, &Constraints<M>, &mut States<M>, &mut L) -> M::Real,
 ) -> Option<M::Real> {
-    let Room { states: zeros, constraints: mut feedback, mut slots } = M::room();
     let (mut q, mut there) = (zeros, zeros);
     let (mut velocities, mut accelerations) = (X::Scheme::stages(zeros), X::Scheme::stages(zeros));
     state.q.copy_to(&mut q);
@@ -114,14 +85,10 @@ pub fn step<M: OnArrays, X: Method>(
     let mut growth =
         explicit::step(X::Scheme::TABLEAU, &span, &mut q, slopes, &mut there, |stage, t, q, v, a| {
             match X::EXPLICIT.stabilization {
-                Stabilization::Held if stage == 0 => {
-                    mechanism.stabilized_on_arrays(t, q, v, inputs, gains, a, &mut feedback, &mut slots)
-                }
-                Stabilization::PerStage => {
-                    mechanism.stabilized_on_arrays(t, q, v, inputs, gains, a, &mut feedback, &mut slots)
-                }
+                Stabilization::Held if stage == 0 => stabilized((t, q, v), a, &mut feedback, &mut slots),
+                Stabilization::PerStage => stabilized((t, q, v), a, &mut feedback, &mut slots),
                 Stabilization::Held | Stabilization::Projection => {
-                    mechanism.constrained_on_arrays(t, q, v, inputs, &feedback, a, &mut slots)
+                    constrained((t, q, v), &feedback, a, &mut slots)
                 }
             }
         });

@@ -141,7 +141,7 @@ pub fn mechanism(compiled: &Compiled, names: &Names, are_on_arrays: bool) -> Tok
     let places = sketch::places(&body(compiled, names, FunctionId::Points, &Access::of_position()));
     let states = states(compiled, names, &fields);
     let kernels = kernels(compiled, names, &fields, are_on_arrays);
-    let fused_step = if are_on_arrays { stages::step(names) } else { step::choice(compiled, names) };
+    let fused_step = if are_on_arrays { stages::calls(names).step } else { step::choice(compiled, names) };
     let start = declared_start(compiled, names, &fields);
     let worst_start_pivot = worst_pivot(compiled, names, FunctionId::StartPivots);
     let worst_pivot = worst_pivot(compiled, names, FunctionId::Pivots);
@@ -259,7 +259,7 @@ fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: b
     let acceleration = |body: &Body| body.vector(q, &fields.coordinates, 0..n);
     let of_states = |body: &Body| body.vector(states, &fields.states, 0..s);
     let stabilized = if are_on_arrays {
-        quote!(#runtime::arrays::stabilized(self, at, inputs, gains))
+        stages::calls(names).stabilized
     } else {
         let body = body(compiled, names, FunctionId::Stabilized, &Access::of_step());
         let (statements, growth) = (&body.statements, body.outputs.last());
@@ -272,7 +272,7 @@ fn kernels(compiled: &Compiled, names: &Names, fields: &Fields, are_on_arrays: b
         quote!(#statements #runtime::Accelerations { acceleration: #acceleration, growth: #growth })
     };
     let constrained = if are_on_arrays {
-        quote!(#runtime::arrays::constrained(self, at, inputs, feedback))
+        stages::calls(names).constrained
     } else {
         let body = body(compiled, names, FunctionId::Constrained, &Access::of_step());
         let (statements, growth, acceleration) = (&body.statements, body.outputs.last(), of_states(&body));

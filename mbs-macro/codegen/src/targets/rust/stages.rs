@@ -25,7 +25,7 @@ pub fn are_on_arrays(compiled: &Compiled) -> bool {
         && is_long(compiled.program(FunctionId::Constrained))
 }
 
-/// The implementation of the runtime's `OnArrays`.
+/// The stages, and room for a step.
 pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
     let Names { mechanism, runtime, .. } = names;
     let inputs = &names.inputs.of_t;
@@ -54,23 +54,13 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
     let acceleration_of_stabilized = acceleration(&stabilized);
     let stabilized = stage(&stabilized, &quote!(#acceleration_of_stabilized #feedback));
     let constrained = stage(&constrained, &acceleration(&constrained));
-    let zeros = |length: usize| {
-        let length = Literal::usize_unsuffixed(length);
-        quote!([T::from_f64(0.0); #length])
-    };
-    let (zero_states, zero_constraints) = (zeros(s), zeros(m));
     let lints = tokens::lints();
     quote! {
         #lints
-        impl<T: #runtime::Real> #runtime::arrays::OnArrays for #mechanism<T> {
-            type Slots = #slots;
+        impl<T: #runtime::Real> #mechanism<T> {
             #[inline(always)]
-            fn room() -> #runtime::arrays::Room<Self> {
-                #runtime::arrays::Room {
-                    states: #zero_states,
-                    constraints: #zero_constraints,
-                    slots: [T::from_f64(0.0); #slot_count],
-                }
+            fn room() -> #runtime::arrays::Room<Self, #slots> {
+                #runtime::arrays::Room::new([T::from_f64(0.0); #slot_count])
             }
             fn stabilized_on_arrays(
                 &self,
@@ -97,14 +87,32 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
     }
 }
 
-/// The trait's step, on arrays.
-pub fn step(names: &Names) -> TokenStream {
+/// The trait's `stabilized`, `constrained` and `long_step`, by calls of the stages.
+pub struct Calls {
+    pub stabilized: TokenStream,
+    pub constrained: TokenStream,
+    pub step: TokenStream,
+}
+
+/// The calls of the stages.
+pub fn calls(names: &Names) -> Calls {
     let Names { runtime, stepped: state, .. } = names;
     let inputs = &names.inputs.of_t;
-    quote! {
+    let stabilized = quote! {
+        |(t, q, v), a, feedback, slots| self.stabilized_on_arrays(t, q, v, inputs, gains, a, feedback, slots)
+    };
+    let constrained = quote! {
+        |(t, q, v), feedback, a, slots| self.constrained_on_arrays(t, q, v, inputs, feedback, a, slots)
+    };
+    let step = quote! {
         #[inline(always)]
         fn long_step<X: #runtime::Method>(&self, state: &mut #state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T, alarm: T) -> ::core::option::Option<T> {
-            #runtime::arrays::step::<Self, X>(self, state, inputs, gains, h, t_next, alarm)
+            #runtime::arrays::step::<Self, X, _>(self, state, [h, t_next, alarm], Self::room(), #stabilized, #constrained)
         }
+    };
+    Calls {
+        stabilized: quote!(#runtime::arrays::stabilized::<Self, _>(at, Self::room(), #stabilized)),
+        constrained: quote!(#runtime::arrays::constrained::<Self, _>(at, feedback, Self::room(), #constrained)),
+        step,
     }
 }
