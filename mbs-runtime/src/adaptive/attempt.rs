@@ -31,7 +31,8 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
     /// Positions are corrected by Newton's method until a correction is below √ε, so that what is
     /// left after it is a rounding; velocities once, in the position that was found. The slope at
     /// the end belongs to the estimate and is the first one of the next step.
-    #[inline(always)]
+    // one copy for all callers: the compiler inlines the stages into it
+    #[inline(never)]
     pub fn step<D: Dynamics<States = V>, S: AdaptiveScheme>(
         &mut self,
         of: (&D, &D::Inputs),
@@ -51,7 +52,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
         for correction in 1.. {
             growth = growth + dynamics.correction(t_next, &Beside { q: &to.q, v: None }, there);
             subtract(&mut to.q, there);
-            let positions = dynamics.equations().info().of_bodies(to.q.as_ref());
+            let positions = dynamics.info().of_bodies(to.q.as_ref());
             let (size, of_positions) = (vectors::largest(there.as_ref()).1, vectors::largest(positions).1);
             if size <= small * (D::Real::from_f64(1.0) + of_positions) {
                 break;
@@ -70,7 +71,7 @@ impl<V: Clone, Stages: AsRef<[V]> + AsMut<[V]>> Attempt<V, Stages> {
     ///
     /// It is the root mean square over all components of q and v. With two differences e and ē
     /// it is ‖e‖²/√(‖e‖² + 0.01‖ē‖²) (Hairer, Nørsett, Wanner, II.10).
-    #[inline(always)]
+    #[inline(never)]
     pub fn error<T: Real>(
         &self,
         estimate: &Estimate,

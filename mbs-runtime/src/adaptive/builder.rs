@@ -145,7 +145,7 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
         let estimate = S::ESTIMATE.ok_or(Error::NoEstimate { scheme })?;
         self.tolerances.check::<D::Real>()?;
         if S::RELAXES {
-            self.beginning.dynamics.equations().info().refuse_stops(S::WORD)?;
+            self.beginning.dynamics.info().refuse_stops(S::WORD)?;
         }
         let Self { mut beginning, tolerances, most_steps, goes_on, .. } = self;
         let length = beginning.prepare::<S::Explicit>(NOMINAL_STEP)?;
@@ -154,7 +154,7 @@ impl<D: Dynamics, S: AdaptiveScheme> AdaptiveBuilder<D, S> {
         let moment = Moment { t, a: states.clone(), q: states, v: rates };
         let stages = S::slopes(moment.q.clone());
         let mut atol = moment.q.clone();
-        tolerances.in_units(dynamics.equations().info(), atol.as_mut());
+        tolerances.in_units(dynamics.info(), atol.as_mut());
         let mut run = Adaptive {
             control: Control::new(tolerances.first_step.unwrap_or(0.0)),
             before: moment.clone(),

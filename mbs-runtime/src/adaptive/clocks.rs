@@ -13,6 +13,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// The first time behind the present one at which a step ends: at a corner of the accelerations, or at a sample.
     pub(super) fn next_corner(&self) -> D::Real {
         let corner = self.dynamics.next_corner(self.now.t, &self.inputs);
+        if self.dynamics.info().sampling.clocks == 0 {
+            return corner;
+        }
         let sample = next_sample(self.dynamics.equations(), self.now.t, self.sampled);
         if sample < corner { sample } else { corner }
     }
@@ -20,7 +23,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// True if a sample is due at the present time that has not been taken. Between steps it is not before its time, where a
     /// table may jump; at the end of a run it is if it is before that by a rounding.
     fn is_due(&self, is_exact: bool) -> bool {
-        is_sample(self.dynamics.equations(), self.now.t, self.sampled, is_exact)
+        let has_clocks = self.dynamics.info().sampling.clocks > 0;
+        has_clocks && is_sample(self.dynamics.equations(), self.now.t, self.sampled, is_exact)
     }
 
     /// Takes the samples that are due at the present time, once, and makes the jumps of the modes that they enter.

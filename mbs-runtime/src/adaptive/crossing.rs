@@ -104,7 +104,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let Happened { all, rising, judged, turned, is_set, .. } = self.happened_before;
         let at_events = if is_set { all | judged } else { judged };
         let mut kept = Happened::default();
-        let stops = gaps::watched(0, self.dynamics.equations().info());
+        let stops = gaps::watched(0, self.dynamics.info());
         for (index, bit) in stops.chain(bits(watched.count)).filter(|(_, bit)| at_events & bit != 0) {
             let is_rising = rising & bit != 0;
             let Beginning { value, rounding, is_zero, .. } = self.beginning(index, watched);
@@ -117,10 +117,10 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 kept.rising |= rising & bit;
                 kept.turned |= if is_turned { bit } else { 0 };
             } else if is_turned && is_rising == (value > D::Real::default()) {
-                let events = self.dynamics.equations().info().events;
+                let events = self.dynamics.info().events;
                 let declared = events.get(index).filter(|_| watched.is_declared);
                 let stop = gaps::stop_in(self.dynamics.equations(), index);
-                let known = stop.and_then(|_| self.dynamics.equations().info().event_name(index));
+                let known = stop.and_then(|_| self.dynamics.info().event_name(index));
                 let name = declared.map(|event| event.name).or(known).unwrap_or("");
                 self.step_back();
                 if stop.is_some_and(|stop| self.is_stuck(stop)) {

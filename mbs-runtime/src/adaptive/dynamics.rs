@@ -11,7 +11,9 @@ use crate::equations::{At, Described, Equations};
 use crate::explicit::{Beside, correct};
 use crate::pressing::press;
 use crate::room::{OnStack, Room};
-use crate::{Accelerations, Components, Error, Mechanism, Real, Scheme, State, arrays, vectors};
+use crate::{
+    Accelerations, Components, Error, Info, Mechanism, Real, Scheme, State, Switch, arrays, vectors,
+};
 
 /// A mechanism that runs to a tolerance can integrate: every [`Mechanism`], whose vectors are
 /// arrays, and mechanisms that were read from a text, whose vectors are on the heap.
@@ -36,6 +38,16 @@ pub trait Dynamics: Clone + Send {
 
     /// Its reactions, outputs, energies, texts and picture.
     fn described(&self) -> &dyn Described<Self::Real>;
+
+    /// Names, units and numbers. Of a type it is a constant, so that what it does not declare costs nothing.
+    fn info(&self) -> &Info {
+        self.equations().info()
+    }
+
+    /// The values of the motion at whose knots laws bend or jump.
+    fn switching(&self) -> &'static [Switch] {
+        self.equations().switching()
+    }
 
     /// The declared start, nothing made consistent.
     fn declared_start(&self) -> (Self::Real, Self::Coordinates, Self::Coordinates);
@@ -100,12 +112,7 @@ pub trait Dynamics: Clone + Send {
         acceleration: &mut Self::States,
     ) -> Self::Real {
         let growth = self.free_acceleration(t, q, v, inputs, acceleration);
-        if self.has_stops() { growth + self.press(t, [q, v], inputs, acceleration) } else { growth }
-    }
-
-    /// True if the mechanism has stops.
-    fn has_stops(&self) -> bool {
-        self.equations().info().contacts() > 0
+        if self.info().contacts() > 0 { growth + self.press(t, [q, v], inputs, acceleration) } else { growth }
     }
 
     /// Adds to accelerations what the stops do that are rested on; the pivot growth of their responses.
@@ -169,6 +176,14 @@ impl<M: Mechanism> Dynamics for M {
         self
     }
 
+    fn info(&self) -> &Info {
+        M::INFO
+    }
+
+    fn switching(&self) -> &'static [Switch] {
+        M::SWITCHES
+    }
+
     fn declared_start(&self) -> (M::Real, Self::Coordinates, Self::Coordinates) {
         let State { t, q, v } = Mechanism::declared_start(self);
         (t, q.into_array(), v.into_array())
@@ -211,8 +226,8 @@ impl<M: Mechanism> Dynamics for M {
         vectors::copy(values, Mechanism::events(self, &at.state(), inputs).as_ref());
     }
 
-    fn has_stops(&self) -> bool {
-        M::INFO.contacts() > 0
+    fn next_corner(&self, t: M::Real, inputs: &M::Inputs) -> M::Real {
+        Mechanism::next_corner(self, t, inputs)
     }
 
     #[inline(always)]

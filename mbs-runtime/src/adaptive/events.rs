@@ -123,7 +123,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// As [`advance_until`](Adaptive::advance_until).
     pub fn advance_to_event(&mut self, end: f64) -> Result<Option<Event>, Error> {
-        let events = self.dynamics.equations().info().events;
+        let events = self.dynamics.info().events;
         let mut watched = Watched {
             count: events.len(),
             direction: &|index| events.get(index).map(|event| event.direction),
@@ -164,7 +164,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 impl<D: Dynamics> Watched<'_, D> {
     /// The places of the values, and those of stops, with their bits.
     pub(super) fn bits(&self, dynamics: &D) -> impl Iterator<Item = (usize, u64)> + use<D> {
-        gaps::watched(self.count, dynamics.equations().info())
+        gaps::watched(self.count, dynamics.info())
     }
 
     /// Which changes of sign of a value count.

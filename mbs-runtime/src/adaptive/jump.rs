@@ -50,7 +50,7 @@ impl<D: Dynamics> Jump<'_, D> {
 
     /// The number of stops.
     fn count(&self) -> usize {
-        self.dynamics.equations().info().stops.len()
+        self.dynamics.info().stops.len()
     }
 
     /// The gaps, with the accelerations that there are without stops and without friction that sticks.
@@ -66,7 +66,7 @@ impl<D: Dynamics> Jump<'_, D> {
     /// their direction; the stops that push; the stops that are closed, do not open, and are not rested on; the constraints of
     /// modes that are not met; the transitions whose conditions have begun to hold.
     pub fn look(&mut self, size: f64, off: f64) -> [u32; 5] {
-        let locked = locked(self.dynamics.equations().info(), self.inputs);
+        let locked = locked(self.dynamics.info(), self.inputs);
         let entered = if locked == 0 { 0 } else { self.hit(locked, size) };
         let slopes = self.slopes();
         let Self { dynamics, inputs, t, q, v, a, slowest } = self;
@@ -108,7 +108,7 @@ impl<D: Dynamics> Jump<'_, D> {
 
     /// The size of the coordinates of bodies here.
     pub fn size(&self) -> f64 {
-        let info = self.dynamics.equations().info();
+        let info = self.dynamics.info();
         LEAST_SIZE + vectors::largest(info.of_bodies(self.q.as_ref())).1.to_f64()
     }
 
@@ -140,7 +140,7 @@ impl<D: Dynamics> Jump<'_, D> {
         for (still, slope) in still.iter_mut().zip(slopes) {
             *still += slope * Real::sqrt(2.0 * largest * RISE * size);
         }
-        for (row, _) in frictions(self.dynamics.equations().info()) {
+        for (row, _) in frictions(self.dynamics.info()) {
             if let Some(still) = still.get_mut(row) {
                 *still = still.max(self.slowest);
             }
@@ -153,9 +153,7 @@ impl<D: Dynamics> Jump<'_, D> {
         let gaps = self.gaps();
         let mut still = self.still(&gaps.acceleration, size);
         still.iter_mut().for_each(|still| *still *= JUMPS);
-        those(self.dynamics.equations().info().contacts(), |stop| {
-            has(held, stop) && !is_still(&gaps.rate, &still, stop)
-        })
+        those(self.dynamics.info().contacts(), |stop| has(held, stop) && !is_still(&gaps.rate, &still, stop))
     }
 
     /// Moves velocities, or positions, so that what is given of the gaps of a set becomes 0.
@@ -203,10 +201,10 @@ impl<D: Dynamics> Jump<'_, D> {
     /// The gaps, with accelerations that the stops of a set have a part in which are closed and still.
     fn pressed(&mut self, closed: u32, size: f64) -> Result<Gaps<D::Real>, Error> {
         let mut gaps = self.gaps();
-        let locked = locked(self.dynamics.equations().info(), self.inputs);
+        let locked = locked(self.dynamics.info(), self.inputs);
         let still = self.still(&gaps.acceleration, size);
         let resting = those(self.count(), |stop| has(closed, stop) && is_still(&gaps.rate, &still, stop));
-        let (info, bounds) = (self.dynamics.equations().info(), Bounds::of(self.dynamics.equations()));
+        let (info, bounds) = (self.dynamics.info(), Bounds::of(self.dynamics.equations()));
         let moves = |row: usize| !is_still(&gaps.rate, &still, row);
         let directions =
             vectors::each(&mut |row| if moves(row) { direction(info, self.inputs, row) } else { 0.0 });
@@ -222,7 +220,7 @@ impl<D: Dynamics> Jump<'_, D> {
 
     /// Nothing answers a set of stops.
     pub(super) fn unanswered(&self, set: u32) -> Error {
-        unanswered(self.dynamics.equations().info(), self.t.to_f64(), set)
+        unanswered(self.dynamics.info(), self.t.to_f64(), set)
     }
 
     /// Answers impacts and decides which stops are rested on, and which frictions stick.
@@ -238,7 +236,7 @@ impl<D: Dynamics> Jump<'_, D> {
     ) -> Result<Outcome<D::Real>, Error> {
         let gaps = self.gaps();
         stopping.size = stopping.size.max(self.size());
-        let (slopes, info) = (self.slopes(), self.dynamics.equations().info());
+        let (slopes, info) = (self.slopes(), self.dynamics.info());
         let allowed = |row: usize| stopping.closed * stopping.size * number(&slopes, row);
         let locked = locked(info, self.inputs);
         are_met(info, self.t.to_f64(), locked, |row| number(&gaps.gap, row), allowed)?;
@@ -283,7 +281,7 @@ impl<D: Dynamics> Jump<'_, D> {
         still: &Each<f64>,
         stopping: &mut Stopping,
     ) -> Result<(Each<D::Real>, Option<f64>), Error> {
-        let locked = locked(self.dynamics.equations().info(), self.inputs);
+        let locked = locked(self.dynamics.info(), self.inputs);
         let (mut impulses, mut flight) = ([D::Real::default(); MOST_CONTACTS], None);
         for turn in 1..=IN_SEQUENCE {
             let rate = self.gaps().rate;

@@ -270,7 +270,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Makes the step that was tried the last one.
     fn accept(&mut self, growth: D::Real) -> Result<(), Error> {
         let Self { dynamics, before, now, next, watch, .. } = self;
-        if growth > watch.alarm || !dynamics.equations().info().redundant.is_empty() {
+        if growth > watch.alarm || !dynamics.info().redundant.is_empty() {
             let (from, to) = (now.at(), next.at());
             dynamics.with_room::<S::Explicit>(|room| {
                 note_risen(dynamics.equations(), [from, to], growth, watch, room)
@@ -295,7 +295,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         let h = (self.effort.steps > 0).then(|| D::Real::from_f64(self.next_step()));
         let Self { dynamics, inputs, now, attempt, .. } = self;
-        dynamics.with_inputs(inputs, |inputs| check_inputs(dynamics.equations().info(), inputs))?;
+        dynamics.with_inputs(inputs, |inputs| check_inputs(dynamics.info(), inputs))?;
         let growth = S::begin((&*dynamics, &*inputs), h, &mut attempt.there, now);
         if !is_healthy(growth, now) {
             return Err(self.cause());
@@ -435,7 +435,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// Where it was.
     pub fn worst_place(&self) -> Option<WorstPlace> {
-        self.watch.worst_place(self.dynamics.equations().info())
+        self.watch.worst_place(self.dynamics.info())
     }
 
     /// The digits that it left.

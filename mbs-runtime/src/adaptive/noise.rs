@@ -109,7 +109,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     fn singular(&mut self) -> Error {
         let worst = self.worst_pivot();
         let growth = worst.map_or(self.watch.worst, |(_, growth)| growth);
-        let info = self.dynamics.equations().info();
+        let info = self.dynamics.info();
         singular(info, self.now.t, worst.and_then(|(at, _)| info.pivots.get(at)), growth)
     }
 }

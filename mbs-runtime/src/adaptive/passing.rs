@@ -36,7 +36,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         ends: [f64; MOST_SWITCHES],
         counts: impl Fn(usize) -> bool,
     ) -> f64 {
-        let switches = self.dynamics.equations().switching();
+        let switches = self.dynamics.switching();
         // between two knots there is a piece
         let passed = |index: usize| match (switches.get(index), pieces.get(index), ends.get(index)) {
             (Some(switch), Some(piece), Some(end)) if counts(index) => {
@@ -90,7 +90,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         longest: f64,
         counts: impl Fn(usize) -> bool,
     ) -> bool {
-        let switches = self.dynamics.equations().switching();
+        let switches = self.dynamics.switching();
         let h = (self.next.t - self.now.t).to_f64();
         let held = self.held(&self.now, h).max(self.held(&self.next, h)) * h;
         let [at_first, at_middle, at_last] = RATES;

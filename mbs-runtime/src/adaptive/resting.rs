@@ -24,7 +24,7 @@ impl<D: Dynamics> Jump<'_, D> {
         stopping: &mut Stopping,
     ) -> Result<[u32; 2], Error> {
         let &Before { reached, held, closed, ref gaps, ref slopes, ref still, is_impact } = before;
-        let (info, rates) = (self.dynamics.equations().info(), self.gaps().rate);
+        let (info, rates) = (self.dynamics.info(), self.gaps().rate);
         let count = info.stops.len();
         // nothing answers stops that contradict each other
         let is_passed =
@@ -86,7 +86,7 @@ impl<D: Dynamics> Jump<'_, D> {
     /// Sets the directions of the frictions that move. Gives those that do not, with those that have come to a halt, and of
     /// them those that have just broken loose, as far as their directions tell.
     fn slide(&mut self, halted: u32, rates: &Each<D::Real>, still: &Each<f64>) -> [u32; 2] {
-        let info = self.dynamics.equations().info();
+        let info = self.dynamics.info();
         let (mut not_moving, mut leaving) = (0, 0);
         for (row, _) in frictions(info) {
             if has(halted, row) {

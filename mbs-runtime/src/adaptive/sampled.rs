@@ -192,7 +192,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Sampled<D, S> {
     /// Does something with the run and the values that it watches.
     fn watch<R>(&mut self, what: impl FnOnce(&mut Adaptive<D, S>, &mut Watched<'_, D>) -> R) -> R {
         let Self { run, threshold, .. } = self;
-        let events = run.dynamics.equations().info().events;
+        let events = run.dynamics.info().events;
         let extra = threshold.filter(|_| events.len() < MOST_EVENTS);
         let direction = |index: usize| {
             let declared = events.get(index).map(|event| event.direction);
@@ -270,7 +270,7 @@ impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
 
     fn set_inputs(&mut self, inputs: &[D::Real]) {
         let Adaptive { dynamics, inputs: own, .. } = &mut self.run;
-        let sampling = dynamics.equations().info().sampling;
+        let sampling = dynamics.info().sampling;
         let is_new = dynamics.with_inputs(own, |own| {
             let free = own.len().saturating_sub(sampling.memories);
             own.iter().zip(inputs).take(free).any(|(own, input)| !own.is_same(*input))

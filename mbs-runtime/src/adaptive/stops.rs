@@ -36,7 +36,7 @@ const MOST_LOOKS: u8 = 8;
 impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// True if velocities or memories may jump.
     fn jumps(&self) -> bool {
-        self.dynamics.equations().info().jumps()
+        self.dynamics.info().jumps()
     }
 
     /// Looks for the first stop that was reached in the last step, where nothing else is watched.
@@ -56,12 +56,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// Notes the stops at which the last step ended.
     pub(super) fn reach_stops(&mut self) {
-        self.stopping.reached |= among(self.happened.due, self.dynamics.equations().info());
+        self.stopping.reached |= among(self.happened.due, self.dynamics.info());
     }
 
     /// The events at stops are no news where a program asks for its own.
     pub(super) fn forget_stops(&mut self) {
-        self.happened.due &= !watched_of(of_run(self.dynamics.equations().info()));
+        self.happened.due &= !watched_of(of_run(self.dynamics.info()));
     }
 
     /// Nor is it where a stop is left.
@@ -86,12 +86,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let [pulled, pushing, closed, entered, begun] = self.with_jump(|jump| jump.look(size, off));
         self.stopping.kept = kept & !pushing;
         // what a jump has looked at already leaves its event
-        let known = among(self.happened.all | self.happened.judged, self.dynamics.equations().info());
+        let known = among(self.happened.all | self.happened.judged, self.dynamics.info());
         let reached = pulled & !kept | closed & !known | entered | begun << MOST_CONTACTS;
         if reached != 0 {
             return self.jump_at(reached, entered == 0);
         }
-        if !self.dynamics.equations().info().modes.transitions.is_empty() {
+        if !self.dynamics.info().modes.transitions.is_empty() {
             self.with_memories(|equations, at, inputs, room| {
                 let (_, seen) = modes::due(equations, at, inputs, Judging { off, room }, true);
                 modes::note(equations.info(), &seen, inputs);
@@ -117,7 +117,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if !self.jumps() {
             return Ok(());
         }
-        let (t, stops) = (self.now.t.to_f64(), self.dynamics.equations().info().stops);
+        let (t, stops) = (self.now.t.to_f64(), self.dynamics.info().stops);
         self.with_memories(|equations, at, inputs, room| modes::look(equations, at, inputs, room));
         let size = self.with_jump(|jump| jump.size());
         self.stopping.size = self.stopping.size.max(size);
@@ -133,14 +133,14 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 .find(|(_, (gap, allowed))| *gap < -*allowed)
         });
         if let Some((stop, (gap, _))) = behind {
-            return Err(self.dynamics.equations().info().behind(t, stop, gap));
+            return Err(self.dynamics.info().behind(t, stop, gap));
         }
         let touched = self.with_jump(|jump| {
             let gaps = vectors::numbers(&jump.gaps().gap);
             those(stops.len(), |stop| gaps.get(stop) <= allowed.get(stop))
         });
         // frictions stick, and modes hold
-        let may_hold = self.dynamics.equations().info().contacts() > stops.len();
+        let may_hold = self.dynamics.info().contacts() > stops.len();
         if touched == 0 && !may_hold { Ok(()) } else { self.jump_once(touched, false) }
     }
 
@@ -149,7 +149,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::Undefined`].
     pub(super) fn check_gaps(&mut self) -> Result<(), Error> {
-        if self.dynamics.equations().info().stops.is_empty() {
+        if self.dynamics.info().stops.is_empty() {
             return Ok(());
         }
         let Self { dynamics, now, all, .. } = self;
@@ -238,7 +238,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             }
             let hit = jump.hit(held, size);
             if hit == 0 {
-                let (gaps, info) = (jump.gaps().gap, jump.dynamics.equations().info());
+                let (gaps, info) = (jump.gaps().gap, jump.dynamics.info());
                 jump.clear(placed(info, held) & !all_frictions(info), &gaps, true);
                 let rates = jump.gaps().rate;
                 jump.clear(held, &rates, false);
@@ -272,7 +272,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         dynamics.complete(now.t, &now.q, &now.v, all);
         let [q, v] = all;
         let at = At { t: now.t, q: q.as_ref(), v: v.as_ref() };
-        let sampling = dynamics.equations().info().sampling;
+        let sampling = dynamics.info().sampling;
         let (mut a, mut lambda) = (dynamics.declared_start().1, dynamics.no_feedback());
         let mut present = dynamics.inputs_at(now.t, inputs);
         dynamics.with_inputs(&mut present, |present| {
@@ -288,7 +288,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let off = self.stopping.off;
         for _ in 0..=modes::IN_SEQUENCE {
             self.jump_once(reached, core::mem::replace(&mut are_forces_known, true))?;
-            if self.dynamics.equations().info().modes.transitions.is_empty() {
+            if self.dynamics.info().modes.transitions.is_empty() {
                 return Ok(());
             }
             let (due, _) = self.with_memories(|equations, at, inputs, room| {
@@ -301,7 +301,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             self.happened.due |= watched_of(reached);
         }
         let (t, transitions) = (self.now.t.to_f64(), reached >> MOST_CONTACTS);
-        Err(modes::endless(self.dynamics.equations().info(), t, transitions))
+        Err(modes::endless(self.dynamics.info(), t, transitions))
     }
 
     /// Tells of the transitions that were passed without being found.
@@ -317,7 +317,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if self.stopping.passed.at(t, longest) <= MOST_OFTEN {
             return Ok(());
         }
-        Err(modes::endless(self.dynamics.equations().info(), t, passed))
+        Err(modes::endless(self.dynamics.info(), t, passed))
     }
 
     /// Counts impacts.
@@ -325,7 +325,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::EndlessImpacts`] where they follow each other too often.
     fn note_struck(&mut self, impulses: &Each<D::Real>) -> Result<(), Error> {
-        let stops = self.dynamics.equations().info().stops.iter().zip(impulses);
+        let stops = self.dynamics.info().stops.iter().zip(impulses);
         let mut struck = stops.filter(|(_, impulse)| **impulse > D::Real::default());
         let (t, longest) = (self.now.t.to_f64(), self.effort.longest);
         match struck.next() {
@@ -352,7 +352,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let found = self.with_jump(|jump| {
             let held = held(jump.dynamics.equations(), jump.inputs);
             let outcome = jump.lead(reached, held, longest, &mut stopping)?;
-            let info = jump.dynamics.equations().info();
+            let info = jump.dynamics.info();
             let mut directions = [0.0; MOST_CONTACTS];
             for (of, (row, _)) in directions.iter_mut().zip(frictions(info)) {
                 *of = direction(info, jump.inputs, row);
@@ -363,7 +363,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.stopping = stopping;
         self.note_struck(&impulses)?;
         // stops that were hit without an event of their gap: at a start, at the entry of a mode, where a floor begins to move
-        let known = among(self.happened.all, self.dynamics.equations().info());
+        let known = among(self.happened.all, self.dynamics.info());
         self.happened.due |= watched_of(struck & !known);
         // a step over many flights would round the first one away
         self.control.next = self.control.next.min(FLIGHTS * flight);
@@ -372,7 +372,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         }
         let Self { dynamics, inputs, now, before, .. } = self;
         (now.q, now.v) = (dynamics.states(&q), dynamics.states(&v));
-        let stops = dynamics.equations().info().stops;
+        let stops = dynamics.info().stops;
         dynamics.with_inputs(inputs, |inputs| {
             for (at, stop) in stops.iter().enumerate() {
                 let impulse = impulses.get(at).copied().unwrap_or_default();
@@ -383,7 +383,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                     *memory = *memory + impulse;
                 }
             }
-            let info = dynamics.equations().info();
+            let info = dynamics.info();
             for (direction, (row, _)) in directions.into_iter().zip(frictions(info)) {
                 set(info, inputs, row, (direction, D::Real::default()));
             }
@@ -391,7 +391,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         *before = now.clone();
         self.between.begin(false);
         let Happened { all, rising, due, judged, turned, .. } = self.happened;
-        let ours = watched_of(of_run(dynamics.equations().info()));
+        let ours = watched_of(of_run(dynamics.info()));
         // an open stop that is closed still is left from its event; the force at another one has not been looked at
         let left = watched_of(closed & !now_held);
         self.happened = Happened {

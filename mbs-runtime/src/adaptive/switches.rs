@@ -41,7 +41,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::Sliding`] and [`Error::Undecided`].
     pub(super) fn look_at_switches(&mut self, was_rejected: bool) -> Result<(), Error> {
-        let switches = self.dynamics.equations().switching();
+        let switches = self.dynamics.switching();
         if switches.is_empty() {
             return Ok(());
         }
@@ -70,7 +70,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let held = self.held(&now, 0.0);
         let h = (now.t - self.before.t).to_f64();
         let near = if h < SHORT * self.effort.longest { NEAR * h } else { 0.0 };
-        let switches = self.dynamics.equations().switching().iter().enumerate();
+        let switches = self.dynamics.switching().iter().enumerate();
         for ((((index, switch), value), rate), is_passed) in switches.zip(values).zip(rates).zip(passed) {
             let t = self.now.t.to_f64();
             if rate.abs() <= held {
@@ -135,7 +135,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// The error of a step that was tried, as it is judged: of one that passes a switch the estimate, which sees
     /// the two sides with weights of the scheme, may be much less than the error.
     pub(super) fn judged(&mut self, ratio: f64) -> f64 {
-        let switches = self.dynamics.equations().switching();
+        let switches = self.dynamics.switching();
         let is_good = ratio <= 1.0;
         if switches.is_empty() || !is_good {
             return ratio;

@@ -44,7 +44,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// True if the condition of a transition held where it was looked at last; and the largest difference of its sides.
     fn seen(&mut self, transition: usize) -> (bool, f64) {
         let Self { dynamics, inputs, .. } = self;
-        let declared = dynamics.equations().info().modes.transitions.get(transition);
+        let declared = dynamics.info().modes.transitions.get(transition);
         let Some(declared) = declared else { return (false, 0.0) };
         let side = if declared.is_rising { 1.0 } else { -1.0 };
         let seen =
