@@ -3,7 +3,7 @@
 //! `System` is for runs as `Equations` is for mechanisms: names, parameters, state, steps, reactions,
 //! outputs, energies and points, for a type or for a text.
 
-use crate::equations::{At, Described, Equations};
+use crate::equations::{At, Equations};
 use crate::watch::WorstPlace;
 use crate::{Derivation, Effort, Error, Event, Real, Sketch};
 
@@ -45,27 +45,18 @@ use crate::{Derivation, Effort, Error, Event, Real, Sketch};
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
 pub trait System<T: Real = f64>: Send {
-    /// Names, dimensions and the equations of the mechanism.
-    fn equations(&self) -> &dyn Equations<T> {
-        self.described()
-    }
-
-    /// The reactions, outputs, energies and picture of the mechanism, in any state.
-    fn described(&self) -> &dyn Described<T>;
+    /// The equations, outputs, energies and points of the mechanism, in any state.
+    fn equations(&self) -> &dyn Equations<T>;
 
     /// The equations and their elimination, for people to read.
-    fn derivation(&self) -> &Derivation {
-        self.described().derivation()
-    }
+    fn derivation(&self) -> &Derivation;
 
     /// The picture of the mechanism.
-    fn sketch(&self) -> &Sketch {
-        self.described().sketch()
-    }
+    fn sketch(&self) -> &Sketch;
 
     /// Writes the parameters that it was made with.
     fn parameters(&self, parameters: &mut [T]) {
-        self.described().parameters(parameters);
+        self.equations().parameters(parameters);
     }
 
     /// Time in s.
@@ -143,14 +134,14 @@ pub trait System<T: Real = f64>: Send {
 
     /// Kinetic and potential energy in J, of another state of the mechanism too.
     fn energies(&self, at: At<'_, T>) -> [T; 2] {
-        let mechanism = self.described();
+        let mechanism = self.equations();
         [mechanism.kinetic_energy(at), mechanism.potential_energy(at)]
     }
 
     /// Writes x and y of every point of the [sketch](Self::sketch) in m, one after the
     /// other.
     fn points(&self, t: T, q: &[T], points: &mut [T]) {
-        self.described().points(t, q, points);
+        self.equations().points(t, q, points);
     }
 
     /// The steps of a run to a tolerance, of which [`steps`](Self::steps) counts the samples;

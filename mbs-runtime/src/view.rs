@@ -22,7 +22,7 @@ impl<D: Dynamics> View<'_, D> {
     /// See [`System::reactions`](crate::System::reactions).
     pub fn reactions(&self, acceleration: &mut [D::Real], multipliers: &mut [D::Real]) -> Result<(), Error> {
         let At { t, q, .. } = self.at;
-        let mechanism = self.dynamics.described();
+        let mechanism = self.dynamics.equations();
         let growth =
             self.with_inputs(|inputs| mechanism.reactions(self.at, inputs, acceleration, multipliers));
         let info = mechanism.info();
@@ -41,7 +41,7 @@ impl<D: Dynamics> View<'_, D> {
         multipliers: &[D::Real],
         outputs: &mut [D::Real],
     ) -> Result<(), Error> {
-        let mechanism = self.dynamics.described();
+        let mechanism = self.dynamics.equations();
         self.with_inputs(|inputs| mechanism.outputs(self.at, inputs, [acceleration, multipliers], outputs));
         check_outputs(mechanism.info(), self.at.t, outputs)
     }

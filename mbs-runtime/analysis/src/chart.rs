@@ -1,7 +1,7 @@
 //! Minimal coordinates: declared coordinates that determine the others.
 
 use mbs_runtime::Info;
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use nalgebra::{DMatrix, DVector};
 
 use crate::point::OperatingPoint;
@@ -36,7 +36,7 @@ impl<'a> Chart<'a> {
     /// # Errors
     /// [`Error::Unknown`], [`Error::Dependent`].
     pub fn new(
-        mechanism: &'a dyn Described<f64>,
+        mechanism: &'a dyn Equations<f64>,
         point: &'a OperatingPoint,
         names: Option<&[String]>,
     ) -> Result<Self, Error> {

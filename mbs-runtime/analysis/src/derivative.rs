@@ -4,7 +4,7 @@
 //! no derivative.
 
 use mbs_runtime::Real;
-use mbs_runtime::equations::{At, Described, Partials};
+use mbs_runtime::equations::{At, Equations, Partials};
 use nalgebra::DVector;
 
 use crate::difference::derivative;
@@ -54,7 +54,7 @@ pub struct Direction {
 
 /// A mechanism at an operating point, and the sizes by which changes of it are measured.
 pub struct Derivatives<'a> {
-    pub mechanism: &'a dyn Described<f64>,
+    pub mechanism: &'a dyn Equations<f64>,
     pub point: &'a OperatingPoint,
     /// Of a mechanism whose parameters change.
     pub varied: Option<Varied<'a>>,
@@ -64,7 +64,7 @@ pub struct Derivatives<'a> {
 
 impl Direction {
     /// A direction in which nothing changes yet.
-    pub fn none(mechanism: &dyn Described<f64>) -> Self {
+    pub fn none(mechanism: &dyn Equations<f64>) -> Self {
         let info = mechanism.info();
         let still = || DVector::zeros(info.coordinates.len());
         Self { q: still(), v: still(), inputs: DVector::zeros(info.inputs.len()), parameter: None }
@@ -159,7 +159,7 @@ impl Derivatives<'_> {
     }
 
     /// The values of the equations of a mechanism at a state, as one vector.
-    fn at(&self, mechanism: &dyn Described<f64>, [q, v, inputs]: [&DVector<f64>; 3]) -> DVector<f64> {
+    fn at(&self, mechanism: &dyn Equations<f64>, [q, v, inputs]: [&DVector<f64>; 3]) -> DVector<f64> {
         let at = At { t: self.point.t, q: q.as_slice(), v: v.as_slice() };
         DVector::from_vec(evaluated(mechanism, at, inputs.as_slice(), self.point.drives))
     }
@@ -167,8 +167,10 @@ impl Derivatives<'_> {
     /// The derivative along a direction by the chain rule; nothing for a mechanism whose equations
     /// cannot be had over duals.
     fn exact(&self, direction: &Direction) -> Option<DVector<f64>> {
-        let mechanism = self.mechanism.differentiable()?;
-        let point = self.point;
+        let (mechanism, point) = (self.mechanism, self.point);
+        if !mechanism.is_differentiable() {
+            return None;
+        }
         let moving = |from: &[f64], rate: &DVector<f64>| -> Vec<Partials> {
             from.iter().zip(rate).map(|(x, rate)| Partials::constant(*x).plus_partial(0, *rate)).collect()
         };
@@ -179,7 +181,7 @@ impl Derivatives<'_> {
         let (q, v) = (moving(&point.q, &direction.q), moving(&point.v, &direction.v));
         let inputs = moving(&point.inputs, &direction.inputs);
         let mut found = DVector::zeros(0);
-        let look = &mut |equations: &dyn Described<Partials>| {
+        let look = &mut |equations: &dyn Equations<Partials>| {
             let at = At { t: Partials::constant(point.t), q: &q, v: &v };
             let all = evaluated(equations, at, &inputs, point.drives);
             // +0 makes no negative zero of a slope
@@ -204,7 +206,7 @@ impl Derivatives<'_> {
 }
 
 /// Φ, Φ̇, q̈, λ and the outputs at a state, one after the other.
-fn evaluated<T: Real>(mechanism: &dyn Described<T>, at: At<'_, T>, inputs: &[T], drives: Drives) -> Vec<T> {
+fn evaluated<T: Real>(mechanism: &dyn Equations<T>, at: At<'_, T>, inputs: &[T], drives: Drives) -> Vec<T> {
     let info = mechanism.info();
     let zeros = |count: usize| vec![T::ZERO; count];
     let (n, m) = (info.coordinates.len(), info.constraints.len());

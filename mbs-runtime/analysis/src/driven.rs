@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use mbs_runtime::equations::{At, Described, Differentiable, Equations, Room};
+use mbs_runtime::equations::{At, Equations, Partials, Room};
 use mbs_runtime::explicit::Beside;
 use mbs_runtime::{Derivation, Dynamics, Error, Gains, Info, Real, Scheme, Sketch, Switch};
 
@@ -102,8 +102,16 @@ impl<D: Dynamics> Dynamics for Driven<D> {
     type Constraints = D::Constraints;
     type Inputs = D::Inputs;
 
-    fn described(&self) -> &dyn Described<D::Real> {
+    fn equations(&self) -> &dyn Equations<D::Real> {
         self
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.dynamics.derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.dynamics.sketch()
     }
 
     fn declared_start(&self) -> (D::Real, D::Coordinates, D::Coordinates) {
@@ -195,7 +203,7 @@ impl<D: Dynamics> Dynamics for Driven<D> {
 macro_rules! driven {
     ($($name:ident($($argument:ident: $Type:ty),*) $(-> $Result:ty)?;)*) => {$(
         fn $name(&self, at: At<'_, D::Real>, inputs: &[D::Real], $($argument: $Type),*) $(-> $Result)? {
-            self.dynamics.described().$name(at, &self.at(at.t, inputs), $($argument),*)
+            self.dynamics.equations().$name(at, &self.at(at.t, inputs), $($argument),*)
         }
     )*};
 }
@@ -204,7 +212,7 @@ macro_rules! driven {
 macro_rules! unchanged {
     ($($name:ident($($argument:ident: $Type:ty),*) $(-> $Result:ty)?;)*) => {$(
         fn $name(&self, $($argument: $Type),*) $(-> $Result)? {
-            self.dynamics.described().$name($($argument),*)
+            self.dynamics.equations().$name($($argument),*)
         }
     )*};
 }
@@ -218,6 +226,9 @@ impl<D: Dynamics> Equations<D::Real> for Driven<D> {
         free_reactions(a: &mut [D::Real], multipliers: &mut [D::Real]) -> D::Real;
         limits(reactions: [&[D::Real]; 2], limits: &mut [D::Real]);
         switches(values: &mut [D::Real]);
+        reactions(a: &mut [D::Real], multipliers: &mut [D::Real]) -> D::Real;
+        outputs(reactions: [&[D::Real]; 2], outputs: &mut [D::Real]);
+        events(values: &mut [D::Real]);
     }
     unchanged! {
         info() -> &Info;
@@ -238,22 +249,11 @@ impl<D: Dynamics> Equations<D::Real> for Driven<D> {
         clock(clock: usize) -> [D::Real; 2];
         transitions(at: At<'_, D::Real>, inputs: &[D::Real], reactions: [&[D::Real]; 2], values: &mut [D::Real]);
         sample(at: At<'_, D::Real>, inputs: &mut [D::Real], clock: usize);
-    }
-}
-
-impl<D: Dynamics> Described<D::Real> for Driven<D> {
-    driven! {
-        reactions(a: &mut [D::Real], multipliers: &mut [D::Real]) -> D::Real;
-        outputs(reactions: [&[D::Real]; 2], outputs: &mut [D::Real]);
-        events(values: &mut [D::Real]);
-    }
-    // equations over duals are of the mechanism alone, with the inputs that are handed over
-    unchanged! {
         potential_energy(at: At<'_, D::Real>) -> D::Real;
         points(t: D::Real, q: &[D::Real], points: &mut [D::Real]);
         parameters(parameters: &mut [D::Real]);
-        derivation() -> &Derivation;
-        sketch() -> &Sketch;
-        differentiable() -> Option<&dyn Differentiable>;
+        // equations over duals are of the mechanism alone, with the inputs that are handed over
+        is_differentiable() -> bool;
+        with_partials(parameters: &[Partials], what: &mut dyn FnMut(&dyn Equations<Partials>)) -> Result<(), Error>;
     }
 }

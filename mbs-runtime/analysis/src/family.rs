@@ -1,6 +1,6 @@
 //! Mechanisms whose parameters can be changed.
 
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use mbs_runtime::{Components, Error, Mechanism};
 
 /// A mechanism whose parameters can be changed: what sensitivities are taken of.
@@ -27,11 +27,11 @@ pub trait Family {
     ///
     /// # Errors
     /// Parameters that the mechanism refuses.
-    fn with(&self, parameters: &[f64], look: &mut dyn FnMut(&dyn Described<f64>)) -> Result<(), Error>;
+    fn with(&self, parameters: &[f64], look: &mut dyn FnMut(&dyn Equations<f64>)) -> Result<(), Error>;
 }
 
-impl<D: Described<f64>, F: Fn(&[f64]) -> Result<D, Error>> Family for F {
-    fn with(&self, parameters: &[f64], look: &mut dyn FnMut(&dyn Described<f64>)) -> Result<(), Error> {
+impl<D: Equations<f64>, F: Fn(&[f64]) -> Result<D, Error>> Family for F {
+    fn with(&self, parameters: &[f64], look: &mut dyn FnMut(&dyn Equations<f64>)) -> Result<(), Error> {
         look(&self(parameters)?);
         Ok(())
     }
@@ -85,7 +85,7 @@ impl Varied<'_> {
         &self,
         parameter: usize,
         change: f64,
-        look: &mut dyn FnMut(&dyn Described<f64>),
+        look: &mut dyn FnMut(&dyn Equations<f64>),
     ) -> Result<(), Error> {
         let mut parameters = self.parameters.to_vec();
         parameters.iter_mut().skip(parameter).take(1).for_each(|value| *value += change);

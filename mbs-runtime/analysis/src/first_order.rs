@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use mbs_runtime::equations::{At, Described, PARTIALS, Partials};
+use mbs_runtime::equations::{At, Equations, PARTIALS, Partials};
 use mbs_runtime::{Gains, Real, System};
 use nalgebra::DMatrix;
 
@@ -55,7 +55,7 @@ use crate::{Error, InputTable};
 /// ```
 #[derive(Clone)]
 pub struct FirstOrder {
-    mechanism: Arc<dyn Described<f64> + Send + Sync>,
+    mechanism: Arc<dyn Equations<f64> + Send + Sync>,
     parameters: Vec<Partials>,
     inputs: Vec<f64>,
     table: Arc<InputTable>,
@@ -72,9 +72,9 @@ impl FirstOrder {
     ///
     /// # Errors
     /// [`Error::NoDerivatives`] for others.
-    pub fn new(mechanism: impl Described<f64> + Send + Sync + 'static) -> Result<Self, Error> {
+    pub fn new(mechanism: impl Equations<f64> + Send + Sync + 'static) -> Result<Self, Error> {
         let info = mechanism.info();
-        if mechanism.differentiable().is_none() {
+        if !mechanism.is_differentiable() {
             return Err(Error::NoDerivatives { mechanism: info.name.to_owned() });
         }
         let inputs = info.inputs.iter().map(|input| input.default).collect();
@@ -209,7 +209,7 @@ impl FirstOrder {
         let constants = |numbers: &[f64]| numbers.iter().map(|x| Partials::constant(*x)).collect::<Vec<_>>();
         let (inputs, still) = (constants(&self.inputs_at(t)), constants(y));
         let mut slope = still.clone();
-        let mut evaluate = |equations: &dyn Described<Partials>| {
+        let mut evaluate = |equations: &dyn Equations<Partials>| {
             for first in (0..y.len()).step_by(PARTIALS) {
                 let mut along = still.clone();
                 for (at, y) in along.iter_mut().skip(first).take(PARTIALS).enumerate() {
@@ -221,15 +221,13 @@ impl FirstOrder {
                 }
             }
         };
-        if let Some(mechanism) = self.mechanism.differentiable() {
-            // the parameters are those that it has, so that it does not refuse them
-            let _ = mechanism.with_partials(&self.parameters, &mut evaluate);
-        }
+        // the parameters are those that it has, so that it does not refuse them
+        let _ = self.mechanism.with_partials(&self.parameters, &mut evaluate);
     }
 }
 
 /// f over any scalar.
-fn derivative<T: Real>(equations: &dyn Described<T>, t: T, y: &[T], inputs: &[T], slope: &mut [T]) {
+fn derivative<T: Real>(equations: &dyn Equations<T>, t: T, y: &[T], inputs: &[T], slope: &mut [T]) {
     let (q, v) = y.split_at(y.len() / 2);
     let (rates, accelerations) = slope.split_at_mut(slope.len() / 2);
     rates.iter_mut().zip(v).for_each(|(rate, v)| *rate = *v);

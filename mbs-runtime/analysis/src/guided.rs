@@ -8,7 +8,7 @@
 //! `inverse` finds inputs, and `travel` the forces that hold a mechanism along a slow motion. `curve` has
 //! motions over time.
 
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use nalgebra::{DMatrix, DVector};
 
 use crate::Error;
@@ -33,7 +33,7 @@ const SHORTEST: f64 = 1.0 / 1_048_576.0;
 /// A mechanism of which as many coordinates are prescribed as it has degrees of freedom.
 #[derive(Clone)]
 pub struct Guided<'a> {
-    pub mechanism: &'a dyn Described<f64>,
+    pub mechanism: &'a dyn Equations<f64>,
     /// The prescribed coordinates, I.
     pub places: Vec<usize>,
     pub drives: Drives,
@@ -68,7 +68,7 @@ impl<'a> Guided<'a> {
     /// [`Error::Unreachable`] where the position is singular; of the mechanism
     /// [`NotAssembled`](mbs_runtime::Error::NotAssembled).
     pub fn new(
-        mechanism: &'a dyn Described<f64>,
+        mechanism: &'a dyn Equations<f64>,
         places: Vec<usize>,
         drives: Drives,
         (t, from): (f64, &[f64]),

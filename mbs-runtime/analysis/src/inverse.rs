@@ -1,6 +1,6 @@
 //! Inverse dynamics: what a prescribed motion takes.
 
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use nalgebra::{DMatrix, DVector};
 
 use crate::curve::{Curve, Moment};
@@ -180,7 +180,7 @@ const MISSING: f64 = 1e-9;
 /// W. Blajer, K. Kołodziejczyk, A geometric approach to solving problems of control constraints, Multibody
 /// System Dynamics 11 (2004) 343-364.
 pub fn inverse(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     request: &Prescription,
     times: &[f64],
 ) -> Result<Vec<Instant>, Error> {
@@ -234,7 +234,7 @@ pub fn inverse(
 }
 
 /// The coordinates with these names, as many as there are degrees of freedom.
-fn places(mechanism: &dyn Described<f64>, names: &[String]) -> Result<Vec<usize>, Error> {
+fn places(mechanism: &dyn Equations<f64>, names: &[String]) -> Result<Vec<usize>, Error> {
     let info = mechanism.info();
     let place = |signal: Signal| match signal.variable {
         Variable::Coordinate(at) => Some(at),
@@ -249,7 +249,7 @@ fn places(mechanism: &dyn Described<f64>, names: &[String]) -> Result<Vec<usize>
 }
 
 /// The inputs that are to be found, if any are.
-fn wanted(mechanism: &dyn Described<f64>, by: &By) -> Result<Option<Vec<usize>>, Error> {
+fn wanted(mechanism: &dyn Equations<f64>, by: &By) -> Result<Option<Vec<usize>>, Error> {
     let info = mechanism.info();
     let names = match by {
         By::Efforts => return Ok(None),

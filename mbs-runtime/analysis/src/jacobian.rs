@@ -1,7 +1,7 @@
 //! The Jacobian of constraints and prescribed coordinates.
 
 use crate::singular::Singular;
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use nalgebra::{DMatrix, DVector, Dyn, LU, QR};
 
 /// Singular values below this share of the largest are 0.
@@ -36,7 +36,7 @@ enum Factors {
 
 impl Jacobian {
     pub fn at(
-        mechanism: &dyn Described<f64>,
+        mechanism: &dyn Equations<f64>,
         (t, q): (f64, &DVector<f64>),
         places: &[usize],
         scales: &DVector<f64>,

@@ -8,7 +8,7 @@
 //! # What it asks a mechanism
 //!
 //! Everything works on the equations of a mechanism on slices
-//! ([`Described`](mbs_runtime::equations::Described)), which every type of `mechanism!` is, and
+//! ([`Equations`](mbs_runtime::equations::Equations)), which every type of `mechanism!` is, and
 //! every text that `mbs-live` has compiled. Vectors are in the order of
 //! [`Info`](mbs_runtime::Info), in SI units and rad.
 #![forbid(unsafe_code)]

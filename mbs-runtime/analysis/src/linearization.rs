@@ -3,7 +3,7 @@
 //! A, B, C and D are made of derivatives along directions of positions, velocities, inputs and parameters
 //! (`derivative`). `chart` chooses the declared coordinates that are states.
 
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use nalgebra::{DMatrix, DVector};
 
 use crate::chart::Chart;
@@ -157,7 +157,7 @@ pub struct Linearization {
 /// D. Negrut, J. L. Ortiz, A practical approach for the linearization of the constrained multibody
 /// dynamics equations, J. Comput. Nonlinear Dynam. 1 (2006) 230-239.
 pub fn linearize(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     point: &OperatingPoint,
     ports: &Ports<'_>,
 ) -> Result<Linearization, Error> {
@@ -173,7 +173,7 @@ pub fn linearize(
 
 /// The same about a point at which no stop is closed, but for those among the rows.
 pub(crate) fn on_its_rows(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     point: &OperatingPoint,
     ports: &Ports<'_>,
 ) -> Result<Linearization, Error> {

@@ -1,6 +1,6 @@
 //! Where a mechanism is linearized.
 
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use mbs_runtime::{Info, System};
 use nalgebra::DVector;
 
@@ -152,7 +152,7 @@ impl OperatingPoint {
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::OffConstraints`].
-    pub(crate) fn check(&self, mechanism: &dyn Described<f64>) -> Result<(), Error> {
+    pub(crate) fn check(&self, mechanism: &dyn Equations<f64>) -> Result<(), Error> {
         let info = mechanism.info();
         let n = info.coordinates.len();
         for (what, list, expected) in [
@@ -189,7 +189,7 @@ impl OperatingPoint {
     }
 
     /// The mechanism at this position and time.
-    pub(crate) fn rest<'a>(&'a self, mechanism: &'a dyn Described<f64>) -> Rest<'a> {
+    pub(crate) fn rest<'a>(&'a self, mechanism: &'a dyn Equations<f64>) -> Rest<'a> {
         Rest::new(mechanism, self.t, &self.inputs, &self.q)
     }
 }

@@ -1,6 +1,6 @@
 //! The fastest rates at which forces act, of a mechanism in motion.
 
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
 use crate::derivative::size_of_state;
@@ -66,7 +66,7 @@ pub struct Rates {
 /// # Source
 /// W. E. Arnoldi, The principle of minimized iterations in the solution of the matrix eigenvalue problem,
 /// Quart. Appl. Math. 9 (1951) 17-29.
-pub fn rates(mechanism: &dyn Described<f64>, at: At<'_, f64>, inputs: &[f64]) -> Option<Rates> {
+pub fn rates(mechanism: &dyn Equations<f64>, at: At<'_, f64>, inputs: &[f64]) -> Option<Rates> {
     let n = at.q.len();
     let tangent = Tangents::new(mechanism, at, inputs)?;
     if n == 0 {
@@ -101,7 +101,7 @@ pub fn rates(mechanism: &dyn Described<f64>, at: At<'_, f64>, inputs: &[f64]) ->
 /// q̈ about a state, measured by the scales of the coordinates; of vectors (s δq, δv), so that both are as
 /// large in a vibration of the rate s.
 struct Tangents<'a> {
-    mechanism: &'a dyn Described<f64>,
+    mechanism: &'a dyn Equations<f64>,
     at: At<'a, f64>,
     inputs: &'a [f64],
     scales: DVector<f64>,
@@ -112,7 +112,7 @@ struct Tangents<'a> {
 }
 
 impl<'a> Tangents<'a> {
-    fn new(mechanism: &'a dyn Described<f64>, at: At<'a, f64>, inputs: &'a [f64]) -> Option<Self> {
+    fn new(mechanism: &'a dyn Equations<f64>, at: At<'a, f64>, inputs: &'a [f64]) -> Option<Self> {
         let (info, mut scales) = (mechanism.info(), Rest::new(mechanism, at.t, inputs, at.q).scales());
         for (place, state) in info.coordinates.iter().enumerate().skip(info.lines) {
             scales[place] = size_of_state(state, at.v.get(place).copied().unwrap_or_default());

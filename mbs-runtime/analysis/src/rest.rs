@@ -7,13 +7,13 @@
 //! five-point differences.
 
 use mbs_runtime::Real;
-use mbs_runtime::equations::{At, Described, PARTIALS, Partials};
+use mbs_runtime::equations::{At, Equations, PARTIALS, Partials};
 use nalgebra::{DMatrix, DVector};
 
 use crate::tangent::Rest;
 
 /// q̈ from rest, and λ, with drives that stand still: Φ_q q̈ = 0.
-pub fn acceleration<T: Real>(mechanism: &dyn Described<T>, t: T, q: &[T], inputs: &[T]) -> (Vec<T>, Vec<T>) {
+pub fn acceleration<T: Real>(mechanism: &dyn Equations<T>, t: T, q: &[T], inputs: &[T]) -> (Vec<T>, Vec<T>) {
     let (n, m) = (q.len(), mechanism.info().constraints.len());
     let lines = mechanism.info().lines;
     let still: Vec<T> = (0..n).map(|at| if at < lines { T::ZERO } else { q[at] }).collect();
@@ -34,7 +34,10 @@ pub fn acceleration<T: Real>(mechanism: &dyn Described<T>, t: T, q: &[T], inputs
 /// How q̈ from rest changes along directions, a column each, by the chain rule; nothing for a
 /// mechanism whose equations cannot be had over duals.
 pub fn rates(rest: &Rest<'_>, q: &DVector<f64>, directions: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let mechanism = rest.mechanism.differentiable()?;
+    let mechanism = rest.mechanism;
+    if !mechanism.is_differentiable() {
+        return None;
+    }
     let constants = |numbers: &[f64]| numbers.iter().map(|x| Partials::constant(*x)).collect::<Vec<_>>();
     let mut parameters = vec![0.0; mechanism.info().parameters.len()];
     mechanism.parameters(&mut parameters);

@@ -8,19 +8,19 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials, lean};
-use mbs_runtime::{Constraint, Derivation, Dimension, Error, Gains, Info, Real, Sketch};
+use mbs_runtime::equations::{At, Equations, Partials, lean};
+use mbs_runtime::{Constraint, Dimension, Error, Gains, Info, Real};
 
 /// A mechanism with rows among its contacts: stops, and behind all of them and frictions constraints of modes.
 pub struct Resting<'a, T: Real> {
-    free: &'a dyn Described<T>,
+    free: &'a dyn Equations<T>,
     info: Info,
     rows: Vec<usize>,
 }
 
 impl<'a, T: Real> Resting<'a, T> {
     /// A mechanism with rows that are independent of each other and of the constraints.
-    pub fn new(free: &'a dyn Described<T>, rows: &[usize]) -> Self {
+    pub fn new(free: &'a dyn Equations<T>, rows: &[usize]) -> Self {
         let mut info = *free.info();
         info.constraints = constraints(&info, rows);
         info.dof -= i32::try_from(rows.len()).unwrap_or(0);
@@ -233,77 +233,47 @@ impl<T: Real> Equations<T> for Resting<'_, T> {
     fn kinetic_energy(&self, at: At<'_, T>) -> T {
         self.free.kinetic_energy(at)
     }
-}
 
-// but for derivatives, which are those of numbers, the same for both scalars
-macro_rules! described {
-    ($T:ty, $it:ident, $differentiable:expr) => {
-        impl Described<$T> for Resting<'_, $T> {
-            fn reactions(
-                &self,
-                at: At<'_, $T>,
-                inputs: &[$T],
-                acceleration: &mut [$T],
-                multipliers: &mut [$T],
-            ) -> $T {
-                self.free_reactions(at, inputs, acceleration, multipliers)
-            }
+    fn reactions(&self, at: At<'_, T>, inputs: &[T], acceleration: &mut [T], multipliers: &mut [T]) -> T {
+        self.free_reactions(at, inputs, acceleration, multipliers)
+    }
 
-            fn outputs(
-                &self,
-                at: At<'_, $T>,
-                inputs: &[$T],
-                [acceleration, multipliers]: [&[$T]; 2],
-                outputs: &mut [$T],
-            ) {
-                let given = [acceleration, self.split(multipliers).0];
-                self.free.outputs(at, &self.resting_inputs(inputs), given, outputs);
-            }
+    fn outputs(
+        &self,
+        at: At<'_, T>,
+        inputs: &[T],
+        [acceleration, multipliers]: [&[T]; 2],
+        outputs: &mut [T],
+    ) {
+        let given = [acceleration, self.split(multipliers).0];
+        self.free.outputs(at, &self.resting_inputs(inputs), given, outputs);
+    }
 
-            fn events(&self, at: At<'_, $T>, inputs: &[$T], values: &mut [$T]) {
-                self.free.events(at, &self.resting_inputs(inputs), values);
-            }
+    fn events(&self, at: At<'_, T>, inputs: &[T], values: &mut [T]) {
+        self.free.events(at, &self.resting_inputs(inputs), values);
+    }
 
-            fn potential_energy(&self, at: At<'_, $T>) -> $T {
-                self.free.potential_energy(at)
-            }
+    fn potential_energy(&self, at: At<'_, T>) -> T {
+        self.free.potential_energy(at)
+    }
 
-            fn points(&self, t: $T, q: &[$T], points: &mut [$T]) {
-                self.free.points(t, q, points);
-            }
+    fn points(&self, t: T, q: &[T], points: &mut [T]) {
+        self.free.points(t, q, points);
+    }
 
-            fn parameters(&self, parameters: &mut [$T]) {
-                self.free.parameters(parameters);
-            }
+    fn parameters(&self, parameters: &mut [T]) {
+        self.free.parameters(parameters);
+    }
 
-            fn derivation(&self) -> &Derivation {
-                self.free.derivation()
-            }
+    fn is_differentiable(&self) -> bool {
+        self.free.is_differentiable()
+    }
 
-            fn sketch(&self) -> &Sketch {
-                self.free.sketch()
-            }
-
-            fn differentiable(&self) -> Option<&dyn Differentiable> {
-                let $it = self;
-                $differentiable
-            }
-        }
-    };
-}
-
-described!(f64, it, it.free.differentiable().map(|_| it as &dyn Differentiable));
-described!(Partials, _it, None);
-
-impl Differentiable for Resting<'_, f64> {
     fn with_partials(
         &self,
         parameters: &[Partials],
-        what: &mut dyn FnMut(&dyn Described<Partials>),
+        what: &mut dyn FnMut(&dyn Equations<Partials>),
     ) -> Result<(), Error> {
-        match self.free.differentiable() {
-            Some(free) => free.with_partials(parameters, &mut |free| what(&Resting::new(free, &self.rows))),
-            None => Ok(()),
-        }
+        self.free.with_partials(parameters, &mut |free| what(&Resting::new(free, &self.rows)))
     }
 }

@@ -3,7 +3,7 @@
 //! It differences the linear systems about equilibria that move with a parameter. A mechanism at other
 //! parameters comes from a `Family`.
 
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::complex;
@@ -146,7 +146,7 @@ pub fn sensitivities(
 }
 
 fn about_rest(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     search: &Search,
     ports: &Ports<'_>,
 ) -> Result<(Equilibrium, Linearization), Error> {
@@ -160,7 +160,7 @@ impl Varied<'_> {
     fn seen<R>(
         &self,
         parameters: &[f64],
-        look: impl Fn(&dyn Described<f64>) -> Result<R, Error>,
+        look: impl Fn(&dyn Equations<f64>) -> Result<R, Error>,
     ) -> Result<R, Error> {
         let mut seen = None;
         self.family.with(parameters, &mut |mechanism| seen = Some(look(mechanism)))?;
@@ -179,7 +179,7 @@ impl Nearby<'_> {
     /// dK/dp and dG/dp.
     fn change(&self, parameter: usize, f: usize) -> Result<[DMatrix<f64>; 2], Error> {
         let values = self.varied.parameters;
-        let quantity = |mechanism: &dyn Described<f64>| {
+        let quantity = |mechanism: &dyn Equations<f64>| {
             Ok(scale(&mechanism.info().parameters[parameter], values[parameter]))
         };
         let step = LONGEST * self.varied.seen(values, quantity)?;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-use mbs_runtime::equations::{At, Described, are_independent};
+use mbs_runtime::equations::{At, Equations, are_independent};
 use mbs_runtime::{DeclaredLock, Info};
 
 use crate::resting::Resting;
@@ -17,7 +17,7 @@ const PULLS: f64 = 1e-9;
 const MOST_SETS: usize = 256;
 
 /// The values of all contacts at a position, and the size of what counts.
-fn contacts(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
+fn contacts(mechanism: &dyn Equations<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
     let still = vec![0.0; q.len()];
     let mut gaps = vec![0.0; 3 * mechanism.info().contacts()];
     mechanism.gaps(At { t, q, v: &still }, &still, &mut gaps);
@@ -28,7 +28,7 @@ fn contacts(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64
 }
 
 /// The gaps of a position, and the size of what counts.
-fn gaps(mechanism: &dyn Described<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
+fn gaps(mechanism: &dyn Equations<f64>, t: f64, q: &[f64]) -> (Vec<f64>, f64) {
     let (mut gaps, size) = contacts(mechanism, t, q);
     gaps.truncate(mechanism.info().stops.len());
     (gaps, size)
@@ -40,7 +40,7 @@ fn locked(info: &Info, inputs: &[f64]) -> impl Iterator<Item = (usize, &'static 
 }
 
 /// The rows of the modes that hold, as far as they are independent of each other and of the constraints at a position.
-pub fn held_rows(mechanism: &dyn Described<f64>, (t, q): (f64, &[f64]), inputs: &[f64]) -> Vec<usize> {
+pub fn held_rows(mechanism: &dyn Equations<f64>, (t, q): (f64, &[f64]), inputs: &[f64]) -> Vec<usize> {
     let mut rows = Vec::new();
     for (row, _) in locked(mechanism.info(), inputs) {
         rows.push(row);
@@ -56,7 +56,7 @@ pub fn held_rows(mechanism: &dyn Described<f64>, (t, q): (f64, &[f64]), inputs: 
 /// # Errors
 /// [`Apart`](mbs_runtime::Error::Apart).
 pub fn meets_modes(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     (t, q): (f64, &[f64]),
     inputs: &[f64],
 ) -> Result<(), Error> {
@@ -92,9 +92,9 @@ pub struct Found<R> {
 /// # Errors
 /// Those of `look` without stops; [`Behind`](mbs_runtime::Error::Behind), [`Error::Pulls`].
 pub fn complementary<R>(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     (t, from, held): (f64, &[f64], &[usize]),
-    mut look: impl FnMut(&dyn Described<f64>) -> Result<Found<R>, Error>,
+    mut look: impl FnMut(&dyn Equations<f64>) -> Result<Found<R>, Error>,
 ) -> Result<(Vec<usize>, R), Error> {
     let count = mechanism.info().stops.len();
     let (mut tried, mut first, mut falling) = (BTreeSet::new(), None, None);
@@ -137,7 +137,7 @@ enum Verdict<R> {
 
 /// Looks for a stop of a set that pulls, and for another one that lies before the position.
 fn judged<R>(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     t: f64,
     (rows, stops): (&[usize], &[usize]),
     Found { result, q, multipliers, falls }: Found<R>,
@@ -182,7 +182,7 @@ fn subsets(count: usize, sizes: RangeInclusive<usize>) -> impl Iterator<Item = B
 /// # Errors
 /// A point behind a stop, or that touches one which does not push: what is beside it is not linear; one that is off a
 /// constraint of a mode that holds.
-pub fn rows_at(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result<Vec<usize>, Error> {
+pub fn rows_at(mechanism: &dyn Equations<f64>, point: &OperatingPoint) -> Result<Vec<usize>, Error> {
     let (t, q) = (point.t, &point.q[..]);
     let (gaps, size) = gaps(mechanism, t, q);
     let info = mechanism.info();
@@ -215,7 +215,7 @@ pub fn rows_at(mechanism: &dyn Described<f64>, point: &OperatingPoint) -> Result
 /// The closed stops that can push while none of them pulls; so many of them are independent of each other. The forces on dependent
 /// stops are not unique: each independent set that balances the loads is one answer, and a mean of answers is another.
 fn pushing(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     point: &OperatingPoint,
     held: &[usize],
     (closed, independent): (&[usize], usize),

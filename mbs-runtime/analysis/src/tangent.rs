@@ -3,7 +3,7 @@
 //! The directions come from a QR decomposition of Φ_qᵀ with pivots, in which masses weigh the coordinates.
 //! Everything here asks the mechanism on slices, so a type and a text are the same to it.
 
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use nalgebra::{DMatrix, DVector};
 
 use crate::difference::five_point;
@@ -13,7 +13,7 @@ use crate::{Error, rest};
 /// A mechanism at rest, with its inputs and its time held.
 #[derive(Clone, Copy)]
 pub struct Rest<'a> {
-    pub mechanism: &'a dyn Described<f64>,
+    pub mechanism: &'a dyn Equations<f64>,
     pub t: f64,
     pub inputs: &'a [f64],
     /// The size of the mechanism in m.
@@ -43,7 +43,7 @@ const CORRECTIONS: usize = 50;
 impl<'a> Rest<'a> {
     /// A mechanism whose size is that of its largest coordinate that is a length, at a position or at the
     /// declared start.
-    pub fn new(mechanism: &'a dyn Described<f64>, t: f64, inputs: &'a [f64], q: &[f64]) -> Self {
+    pub fn new(mechanism: &'a dyn Equations<f64>, t: f64, inputs: &'a [f64], q: &[f64]) -> Self {
         /// Of a mechanism that stands at the origin, within a nanometre.
         const USUAL: f64 = 0.1;
         const NOTHING: f64 = 1e-9;
@@ -85,7 +85,7 @@ impl<'a> Rest<'a> {
     /// Stiffnesses are zero that are less than this share of the largest one: a hundred times the error of a
     /// derivative, by the chain rule or by differences.
     pub fn resolution(&self) -> f64 {
-        if self.mechanism.differentiable().is_some() { 1e-12 } else { 1e-9 }
+        if self.mechanism.is_differentiable() { 1e-12 } else { 1e-9 }
     }
 
     /// Where a displacement leads on the constraints.

@@ -1,6 +1,6 @@
 //! Statics along a slow motion: efforts over travel, and mechanical advantage.
 
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use nalgebra::{DMatrix, DVector};
 
 use crate::chart::beside;
@@ -191,7 +191,7 @@ impl Position {
 ///
 /// # Source
 /// J. E. Shigley, J. J. Uicker, Theory of Machines and Mechanisms, McGraw-Hill 1980, sections 2-9 and 11-13.
-pub fn travel(mechanism: &dyn Described<f64>, request: &Travel) -> Result<Vec<Position>, Error> {
+pub fn travel(mechanism: &dyn Equations<f64>, request: &Travel) -> Result<Vec<Position>, Error> {
     let info = mechanism.info();
     Error::refuse_rates(info, "a slow motion")?;
     Error::refuse_states(info, "a slow motion")?;
@@ -237,7 +237,7 @@ enum Lead {
 }
 
 impl Lead {
-    fn of(mechanism: &dyn Described<f64>, along: &Along) -> Result<Self, Error> {
+    fn of(mechanism: &dyn Equations<f64>, along: &Along) -> Result<Self, Error> {
         let info = mechanism.info();
         match along {
             Along::Coordinate(name) => {
@@ -265,7 +265,7 @@ impl Lead {
     /// The led coordinate, and others that determine the position with it.
     fn places(
         self,
-        mechanism: &dyn Described<f64>,
+        mechanism: &dyn Equations<f64>,
         (t, inputs, from): (f64, &[f64], &[f64]),
     ) -> Result<Vec<usize>, Error> {
         let mut places = match self {

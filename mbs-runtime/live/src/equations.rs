@@ -1,11 +1,9 @@
 //! A live mechanism as [`Equations`]: a function of the compiled mechanism behind each method.
 
-use std::any::Any;
-
 use mbs_codegen::FunctionId;
 use mbs_runtime::__private::{next_corner, worst};
-use mbs_runtime::equations::{At, Described, Differentiable, Equations, Partials, hold, press};
-use mbs_runtime::{Derivation, Error, Gains, Info, Real, Sketch, Switch};
+use mbs_runtime::equations::{At, Equations, Partials, hold, press};
+use mbs_runtime::{Error, Gains, Info, Real, Switch};
 
 use crate::Live;
 use crate::arguments::Arguments;
@@ -185,9 +183,7 @@ impl<T: Real> Equations<T> for Live<T> {
         self.call(FunctionId::KineticEnergy, &state(at), [&mut energy]);
         energy[0]
     }
-}
 
-impl<T: Real> Described<T> for Live<T> {
     fn reactions(&self, at: At<'_, T>, inputs: &[T], acceleration: &mut [T], multipliers: &mut [T]) -> T {
         let growth = self.free_reactions(at, inputs, acceleration, multipliers);
         growth + press(self, at, inputs, acceleration, Some(multipliers))
@@ -232,25 +228,14 @@ impl<T: Real> Described<T> for Live<T> {
         parameters.iter_mut().zip(Self::parameters(self)).for_each(|(to, from)| *to = *from);
     }
 
-    fn derivation(&self) -> &Derivation {
-        Self::derivation(self)
+    fn is_differentiable(&self) -> bool {
+        T::ORDER == 0
     }
 
-    fn sketch(&self) -> &Sketch {
-        Self::sketch(self)
-    }
-
-    fn differentiable(&self) -> Option<&dyn Differentiable> {
-        let live: &dyn Any = self;
-        live.downcast_ref::<Live>().map(|live| live as &dyn Differentiable)
-    }
-}
-
-impl Differentiable for Live {
     fn with_partials(
         &self,
         parameters: &[Partials],
-        what: &mut dyn FnMut(&dyn Described<Partials>),
+        what: &mut dyn FnMut(&dyn Equations<Partials>),
     ) -> Result<(), Error> {
         let given =
             |own: &mut [Partials]| own.iter_mut().zip(parameters).for_each(|(own, given)| *own = *given);

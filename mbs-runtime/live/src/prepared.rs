@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 
 use mbs_codegen::FunctionId;
-use mbs_runtime::equations::{At, Described, Equations, Room};
+use mbs_runtime::equations::{At, Equations, Room};
 use mbs_runtime::explicit::Beside;
-use mbs_runtime::{Dynamics, Error, Real, Scheme};
+use mbs_runtime::{Derivation, Dynamics, Error, Real, Scheme, Sketch};
 
 use crate::Live;
 use crate::arguments::Arguments;
@@ -101,8 +101,16 @@ impl<T: Real> Dynamics for Prepared<T> {
     type Constraints = Vec<T>;
     type Inputs = Vec<T>;
 
-    fn described(&self) -> &dyn Described<T> {
+    fn equations(&self) -> &dyn Equations<T> {
         &self.live
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.live.derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.live.sketch()
     }
 
     fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {

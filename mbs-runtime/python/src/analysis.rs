@@ -82,11 +82,11 @@ impl Mechanism {
     fn at_rest(&self, options: &RunOptions, about: &About) -> Result<Found, Error> {
         let model = self.model.as_ref();
         let (run, search) = about.search(model, &Start::of(model, &options.values(model)?)?)?;
-        let rest = equilibrium(run.described(), &search)?;
+        let rest = equilibrium(run.equations(), &search)?;
         let (still, point) = (vec![0.0; rest.q.len()], OperatingPoint::from(&rest));
         let at = At { t: rest.t, q: &point.q, v: &point.v };
         let mut outputs = vec![f64::NAN; model.info().outputs.len()];
-        run.described().outputs(at, &rest.inputs, [&still, &rest.multipliers], &mut outputs);
+        run.equations().outputs(at, &rest.inputs, [&still, &rest.multipliers], &mut outputs);
         let [_, potential_energy] = run.energies(at);
         Ok(Found { rest, outputs, potential_energy })
     }

@@ -7,12 +7,13 @@
 //! * a type or a text whose name is forgotten (`erased.rs` of the workbench), so that these runs are compiled
 //!   once for all of them.
 
-use crate::equations::{At, Described, Equations};
+use crate::equations::{At, Equations};
 use crate::explicit::{Beside, correct};
 use crate::pressing::press;
 use crate::room::{OnStack, Room};
 use crate::{
-    Accelerations, Components, Error, Info, Mechanism, Real, Scheme, State, Switch, arrays, vectors,
+    Accelerations, Components, Derivation, Error, Info, Mechanism, Real, Scheme, Sketch, State, Switch,
+    arrays, vectors,
 };
 
 /// A mechanism that runs to a tolerance can integrate: every [`Mechanism`], whose vectors are
@@ -32,12 +33,13 @@ pub trait Dynamics: Clone + Send {
     type Inputs: Clone + Send;
 
     /// Its equations on slices.
-    fn equations(&self) -> &dyn Equations<Self::Real> {
-        self.described()
-    }
+    fn equations(&self) -> &dyn Equations<Self::Real>;
 
-    /// Its reactions, outputs, energies, texts and picture.
-    fn described(&self) -> &dyn Described<Self::Real>;
+    /// The equations and their elimination, for people to read.
+    fn derivation(&self) -> &Derivation;
+
+    /// The picture of the mechanism.
+    fn sketch(&self) -> &Sketch;
 
     /// Names, units and numbers. Of a type it is a constant, so that what it does not declare costs nothing.
     fn info(&self) -> &Info {
@@ -172,8 +174,16 @@ impl<M: Mechanism> Dynamics for M {
     type Constraints = arrays::Constraints<M>;
     type Inputs = M::Inputs;
 
-    fn described(&self) -> &dyn Described<M::Real> {
+    fn equations(&self) -> &dyn Equations<M::Real> {
         self
+    }
+
+    fn derivation(&self) -> &Derivation {
+        M::DERIVATION
+    }
+
+    fn sketch(&self) -> &Sketch {
+        M::SKETCH
     }
 
     fn info(&self) -> &Info {

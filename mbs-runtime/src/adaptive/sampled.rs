@@ -6,12 +6,12 @@ use core::fmt;
 
 use super::events::Watched;
 use super::{Adaptive, AdaptiveScheme, Dynamics, Effort, Event, MOST_EVENTS};
-use crate::equations::{At, Described};
+use crate::equations::{At, Equations};
 use crate::info::Direction;
 use crate::simulation::clock;
 use crate::view::View;
 use crate::watch::WorstPlace;
-use crate::{Error, Real, System, vectors};
+use crate::{Derivation, Error, Real, Sketch, System, vectors};
 
 /// A sample is at the end of a run that is nearer to it than this share of an interval.
 const AT_END: f64 = 1e-6;
@@ -107,7 +107,7 @@ impl Threshold {
                 let (mut a, mut multipliers) = (dynamics.declared_start().1, dynamics.no_feedback());
                 let mut outputs = [D::Real::from_f64(f64::NAN); MOST_EVENTS];
                 let (a, multipliers) = (a.as_mut(), multipliers.as_mut());
-                let mechanism = dynamics.described();
+                let mechanism = dynamics.equations();
                 dynamics.with_inputs(&mut inputs.clone(), |inputs| {
                     mechanism.reactions(at, inputs, a, multipliers);
                     let count = mechanism.info().outputs.len().min(MOST_EVENTS);
@@ -251,8 +251,16 @@ impl<D: Dynamics, S: AdaptiveScheme> fmt::Debug for Sampled<D, S> {
 }
 
 impl<D: Dynamics, S: AdaptiveScheme> System<D::Real> for Sampled<D, S> {
-    fn described(&self) -> &dyn Described<D::Real> {
-        self.run.dynamics.described()
+    fn equations(&self) -> &dyn Equations<D::Real> {
+        self.run.dynamics.equations()
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.run.dynamics.derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.run.dynamics.sketch()
     }
 
     fn time(&self) -> D::Real {

@@ -201,7 +201,7 @@ pub(super) fn switches_at<D: Dynamics>(
     let [q, v] = all;
     let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
     let mut values = [D::Real::from_f64(f64::NAN); MOST_SWITCHES];
-    let equations = dynamics.described();
+    let equations = dynamics.equations();
     dynamics.with_inputs(&mut inputs.clone(), |inputs| equations.switches(at, inputs, &mut values));
     vectors::numbers(&values)
 }

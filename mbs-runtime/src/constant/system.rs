@@ -1,11 +1,11 @@
 //! Runs with a constant step as a [`System`].
 
 use super::{ConstantStep, Kernel};
-use crate::equations::{At, Described};
+use crate::equations::{At, Equations};
 use crate::simulation::clock;
 use crate::view::View;
 use crate::watch::WorstPlace;
-use crate::{Dynamics, Error, Real, System, vectors};
+use crate::{Derivation, Dynamics, Error, Real, Sketch, System, vectors};
 
 impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
     /// The mechanism in its present state.
@@ -17,8 +17,16 @@ impl<D: Dynamics, K: Kernel<D>> ConstantStep<D, K> {
 }
 
 impl<D: Dynamics, K: Kernel<D>> System<D::Real> for ConstantStep<D, K> {
-    fn described(&self) -> &dyn Described<D::Real> {
-        self.dynamics.described()
+    fn equations(&self) -> &dyn Equations<D::Real> {
+        self.dynamics.equations()
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.dynamics.derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.dynamics.sketch()
     }
 
     fn time(&self) -> D::Real {

@@ -7,7 +7,7 @@
 use super::instances::{Instances, Moment, put};
 use super::{Each, Many, ManyCoordinates, ManyOutputs, trouble_of};
 use crate::components::sum_of;
-use crate::described::measured;
+use crate::equations::measured;
 use crate::lanes::{Lane, Lanes};
 use crate::mechanism::growth_limit;
 use crate::simulation::press;

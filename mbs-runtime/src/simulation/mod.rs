@@ -12,7 +12,7 @@ pub use self::builder::Builder;
 pub(crate) use self::on_slices::{press, pushed, struck};
 
 use crate::components::sum_of;
-use crate::described::measured;
+use crate::equations::measured;
 use crate::mechanism::growth_limit;
 use crate::run::check_outputs;
 use crate::watch::{Watch, WorstPlace};

@@ -1,7 +1,7 @@
 //! Simulations that are gone back through.
 
 use super::{Builder, Simulation};
-use crate::equations::{At, Described, Equations, read, write};
+use crate::equations::{At, Equations, read, write};
 use crate::gradients::{Seeds, Sum};
 use crate::mechanism::is_fused_for;
 use crate::reverse::{Adjoints, Function, Given, Moment, Reversible, Transposed};
@@ -158,11 +158,11 @@ impl<M: Transposed<Real = f64>, X: Method> Reversible for Simulation<M, X> {
                 Equations::projection(mechanism, at.t, at.q, given.feedback, correction);
             }
             (Function::Reactions, [acceleration, multipliers]) => {
-                Described::reactions(mechanism, at, given.inputs, acceleration, multipliers);
+                Equations::reactions(mechanism, at, given.inputs, acceleration, multipliers);
             }
             (Function::Outputs, [outputs]) => {
                 let reactions = [given.acceleration, given.multipliers];
-                Described::outputs(mechanism, at, given.inputs, reactions, outputs);
+                Equations::outputs(mechanism, at, given.inputs, reactions, outputs);
             }
             (_, results) => results.iter_mut().for_each(|result| result.fill(f64::NAN)),
         }

@@ -1,15 +1,22 @@
 //! A simulation as tools see it.
 
 use super::Simulation;
-use crate::described::measured;
-use crate::equations::{Described, read, write};
+use crate::equations::{Equations, measured, read, write};
 use crate::mechanism::is_fused_for;
 use crate::watch::WorstPlace;
-use crate::{Components, Error, Mechanism, Method, Reactions, System};
+use crate::{Components, Derivation, Error, Mechanism, Method, Reactions, Sketch, System};
 
 impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
-    fn described(&self) -> &dyn Described<M::Real> {
+    fn equations(&self) -> &dyn Equations<M::Real> {
         self.mechanism()
+    }
+
+    fn derivation(&self) -> &Derivation {
+        M::DERIVATION
+    }
+
+    fn sketch(&self) -> &Sketch {
+        M::SKETCH
     }
 
     fn time(&self) -> M::Real {

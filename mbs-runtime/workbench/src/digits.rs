@@ -90,7 +90,7 @@ fn changes(run: &dyn System, now: &Instant) -> Option<Vec<f64>> {
         let mut acceleration = vec![0.0; q.len()];
         let mut multipliers = vec![0.0; changes.len()];
         let at = At { t: run.time(), q: &q, v: &now.v };
-        run.described().reactions(at, &inputs, &mut acceleration, &mut multipliers);
+        run.equations().reactions(at, &inputs, &mut acceleration, &mut multipliers);
         for (change, (there, here)) in changes.iter_mut().zip(multipliers.iter().zip(&now.multipliers)) {
             *change = change.max((there - here).abs());
         }

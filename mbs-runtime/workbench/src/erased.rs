@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use mbs_runtime::equations::{At, Correction, Described, Room, correction};
+use mbs_runtime::equations::{At, Correction, Equations, Room, correction};
 use mbs_runtime::explicit::Beside;
-use mbs_runtime::{Components, Dynamics, Error, Mechanism, Real, Scheme, State};
+use mbs_runtime::{Components, Derivation, Dynamics, Error, Mechanism, Real, Scheme, Sketch, State};
 
 /// A mechanism of a type or of a text, of which runs need not know more. `T` is its scalar: `f64`, or
 /// [`Partials`](mbs_runtime::equations::Partials) for derivatives.
@@ -37,7 +37,9 @@ impl<T> Clone for Erased<T> {
 #[allow(clippy::ptr_arg, reason = "the vectors of `Dynamics`")]
 trait OnVectors<T>: Send {
     fn copied(&self) -> Box<dyn OnVectors<T>>;
-    fn described(&self) -> &dyn Described<T>;
+    fn equations(&self) -> &dyn Equations<T>;
+    fn derivation(&self) -> &Derivation;
+    fn sketch(&self) -> &Sketch;
     fn declared_start(&self) -> (T, Vec<T>, Vec<T>);
     fn states(&self, all: &Vec<T>) -> Vec<T>;
     fn complete(&self, t: T, q: &Vec<T>, v: &Vec<T>, all: &mut [Vec<T>; 2]);
@@ -66,8 +68,16 @@ where
         Box::new(self.clone())
     }
 
-    fn described(&self) -> &dyn Described<T> {
-        Dynamics::described(self)
+    fn equations(&self) -> &dyn Equations<T> {
+        Dynamics::equations(self)
+    }
+
+    fn derivation(&self) -> &Derivation {
+        Dynamics::derivation(self)
+    }
+
+    fn sketch(&self) -> &Sketch {
+        Dynamics::sketch(self)
     }
 
     fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {
@@ -126,8 +136,16 @@ impl<T: Real> Dynamics for Erased<T> {
     type Constraints = Vec<T>;
     type Inputs = Vec<T>;
 
-    fn described(&self) -> &dyn Described<T> {
-        self.0.described()
+    fn equations(&self) -> &dyn Equations<T> {
+        self.0.equations()
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.0.derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.0.sketch()
     }
 
     fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {
@@ -143,7 +161,7 @@ impl<T: Real> Dynamics for Erased<T> {
     }
 
     fn no_feedback(&self) -> Vec<T> {
-        zeros(self.0.described().info().constraints.len())
+        zeros(self.0.equations().info().constraints.len())
     }
 
     fn default_inputs(&self) -> Vec<T> {
@@ -158,7 +176,7 @@ impl<T: Real> Dynamics for Erased<T> {
         &self,
         what: impl FnOnce(&mut Room<'_, T>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let info = self.0.described().info();
+        let info = self.0.equations().info();
         let mut numbers = zeros(Room::<T>::len(info, S::TABLEAU.stage_count()));
         what(&mut Room::within(&mut numbers, info))
     }
@@ -201,7 +219,9 @@ impl<T: Real> Dynamics for Erased<T> {
 /// A mechanism of a type behind its equations on slices.
 #[derive(Clone)]
 struct OfType<T> {
-    mechanism: Arc<dyn Described<T> + Send + Sync>,
+    mechanism: Arc<dyn Equations<T> + Send + Sync>,
+    derivation: &'static Derivation,
+    sketch: &'static Sketch,
     start: (T, Vec<T>, Vec<T>),
     inputs: Vec<T>,
     no_feedback: Vec<T>,
@@ -217,6 +237,8 @@ impl<T: Real> OfType<T> {
             inputs: numbers(&M::Inputs::default().into_array()),
             no_feedback: vec![T::ZERO; M::INFO.constraints.len()],
             mechanism: Arc::new(mechanism),
+            derivation: M::DERIVATION,
+            sketch: M::SKETCH,
         }
     }
 }
@@ -226,8 +248,16 @@ impl<T: Real> OnVectors<T> for OfType<T> {
         Box::new(self.clone())
     }
 
-    fn described(&self) -> &dyn Described<T> {
+    fn equations(&self) -> &dyn Equations<T> {
         &*self.mechanism
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.derivation
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.sketch
     }
 
     fn declared_start(&self) -> (T, Vec<T>, Vec<T>) {

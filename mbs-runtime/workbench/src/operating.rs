@@ -6,7 +6,7 @@ use mbs_analysis::{
     Equilibrium, Family, Linearization, OperatingPoint, Ports, Search, Signal, Stability, Strategy,
     equilibrium, linearize,
 };
-use mbs_runtime::equations::{Described, Room, project};
+use mbs_runtime::equations::{Equations, Room, project};
 use mbs_runtime::{Info, System, Tolerances};
 
 use crate::quantity::{self, TIME};
@@ -136,7 +136,7 @@ impl<'a> Operating<'a> {
             return Ok(Self { name, model, run, point, rest: None, search: Search::default(), start });
         }
         let (run, search) = about.search(model, &start)?;
-        let rest = if about.is_here { None } else { Some(equilibrium(run.described(), &search)?) };
+        let rest = if about.is_here { None } else { Some(equilibrium(run.equations(), &search)?) };
         let from = search.from.as_deref().unwrap_or(&[]);
         // memories are those that the start leaves
         let inputs = search.inputs.as_deref().unwrap_or(&start.inputs);
@@ -158,7 +158,7 @@ impl<'a> Operating<'a> {
         let PortNames { states, inputs, parameters, outputs } = names.clone();
         let outputs = outputs.map(|patterns| self.outputs(&patterns)).transpose()?;
         let ports = Ports { states, inputs, outputs, parameters, family: Some(self) };
-        Ok(linearize(self.run.described(), &self.point, &ports)?)
+        Ok(linearize(self.run.equations(), &self.point, &ports)?)
     }
 
     /// The names that fit some patterns, in their order.
@@ -204,11 +204,11 @@ impl Family for Operating<'_> {
     fn with(
         &self,
         parameters: &[f64],
-        look: &mut dyn FnMut(&dyn Described<f64>),
+        look: &mut dyn FnMut(&dyn Equations<f64>),
     ) -> Result<(), mbs_runtime::Error> {
         let start =
             Start { parameters: parameters.to_vec(), kind: StartKind::Declared, ..self.start.clone() };
-        look(self.model.start(&start)?.described());
+        look(self.model.start(&start)?.equations());
         Ok(())
     }
 }

@@ -142,7 +142,7 @@ impl Resolution {
 
     fn look_at_rates(&mut self, run: &dyn System, at: At<'_, f64>, inputs: &[f64], taken: u64) {
         self.grow(taken);
-        let Some(rates) = rates(run.described(), at, inputs) else { return };
+        let Some(rates) = rates(run.equations(), at, inputs) else { return };
         let growth = self.stepping.growth(&rates, self.step);
         self.last = Some((taken, growth));
         if growth > self.worst.as_ref().map_or(0.0, |worst| worst.growth) {
@@ -277,7 +277,7 @@ fn stepped(
     let accelerated = |at: At<'_, f64>| {
         let mut acceleration = vec![0.0; at.q.len()];
         let mut multipliers = vec![0.0; run.equations().info().constraints.len()];
-        run.described().reactions(at, inputs, &mut acceleration, &mut multipliers);
+        run.equations().reactions(at, inputs, &mut acceleration, &mut multipliers);
         acceleration
     };
     let (part, mut q, mut v) = (h / parts, at.q.to_vec(), at.v.to_vec());

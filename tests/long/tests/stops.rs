@@ -214,7 +214,7 @@ fn looked_at(
     stops: usize,
     allowed: impl Fn(f64, f64, f64) -> [f64; 2],
 ) -> Looked {
-    let info = *run.described().info();
+    let info = *run.equations().info();
     let (n, m) = (info.coordinates.len(), info.constraints.len());
     let (mut last, mut fastest) = (f64::INFINITY, 0.0_f64);
     for _ in 0..samples {
@@ -222,8 +222,8 @@ fn looked_at(
         let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
         run.state(&mut q, &mut v);
         let at = At { t: run.time(), q: &q, v: &v };
-        let kinetic = run.described().kinetic_energy(at);
-        let energy = kinetic + run.described().potential_energy(at);
+        let kinetic = run.equations().kinetic_energy(at);
+        let energy = kinetic + run.equations().potential_energy(at);
         fastest = v.iter().fold(fastest, |speed, v| speed.max(v.abs()));
         let [more, short] = allowed(kinetic, energy, fastest);
         if energy > last + more {
@@ -280,15 +280,15 @@ fn random_modes_take_energy_and_hold() {
 
 /// The number of samples of a run at which a mode holds.
 fn held_by(run: &mut dyn System, (steps, allowed): (u64, f64), stops: usize, text: &str) -> u64 {
-    let info = *run.described().info();
+    let info = *run.equations().info();
     let (n, m, mut last, mut held) = (info.coordinates.len(), info.constraints.len(), f64::INFINITY, 0);
     for _ in 0..100 {
         run.advance(steps).unwrap_or_else(|error| panic!("{error}\n{text}"));
         let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
         run.state(&mut q, &mut v);
         let at = At { t: run.time(), q: &q, v: &v };
-        let kinetic = run.described().kinetic_energy(at);
-        let energy = kinetic + run.described().potential_energy(at);
+        let kinetic = run.equations().kinetic_energy(at);
+        let energy = kinetic + run.equations().potential_energy(at);
         let allowed = allowed * (1.0 + kinetic + energy.abs());
         assert!(energy <= last + allowed, "{energy} after {last} J at {} s\n{text}", at.t);
         last = last.min(energy);

@@ -4,7 +4,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use mbs_analysis::{Error, Search, Stability, Strategy, equilibrium};
-use mbs_runtime::equations::{Described, Differentiated};
+use mbs_runtime::equations::{Differentiated, Equations};
 use mbs_runtime::mechanism;
 
 mechanism! {
@@ -275,7 +275,7 @@ fn what_cannot_rest_is_refused() {
 #[test]
 fn a_differentiable_mechanism_has_exact_stiffnesses() {
     let expected = 1.5 * 9.81 / 0.8;
-    let of = |mechanism: &dyn Described<f64>| {
+    let of = |mechanism: &dyn Equations<f64>| {
         let rest = equilibrium(mechanism, &Search::default()).unwrap();
         (rest.stiffness[0] - expected).abs() / expected
     };

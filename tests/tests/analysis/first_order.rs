@@ -5,7 +5,7 @@
 use mbs_analysis::nalgebra::{DMatrix, DVector};
 use mbs_analysis::{Error, FirstOrder};
 use mbs_live::{Run, Text};
-use mbs_runtime::equations::{Described, Differentiated, Equations};
+use mbs_runtime::equations::{Differentiated, Equations};
 use mbs_runtime::{Simulation, mechanism};
 
 mechanism! {
@@ -95,7 +95,7 @@ fn violations_are_fed_back() {
 /// A type without equations over duals is refused with what to do.
 #[test]
 fn types_without_derivatives_are_refused() {
-    assert!(Swing::declared().differentiable().is_none());
+    assert!(!Swing::declared().is_differentiable());
     let refused = FirstOrder::new(Swing::declared()).expect_err("a refusal");
     assert!(matches!(&refused, Error::NoDerivatives { mechanism } if mechanism == "Swing"));
     assert!(refused.to_string().contains("`Differentiated(…)`"), "{refused}");

@@ -5,7 +5,7 @@
 #![allow(clippy::expect_used, reason = "a test says by panicking what is wrong")]
 
 use mbs_analysis::{By, Curve, Error, Instant, Prescription, Time, inverse};
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use mbs_runtime::{Components, Dual, Real, Simulation, mechanism};
 
 mechanism! {
@@ -292,7 +292,7 @@ fn a_text_as_the_type() {
 
 #[test]
 fn motions_that_cannot_be_made() {
-    let failed = |mechanism: &dyn Described<f64>, request: Prescription| {
+    let failed = |mechanism: &dyn Equations<f64>, request: Prescription| {
         inverse(mechanism, &request, &times(1.0, 20)).expect_err("it cannot be made")
     };
     let pendulum = Pendulum::declared();

@@ -9,7 +9,7 @@ use mbs_analysis::{
     Behaviour, Error, Linearization, Mode, OperatingPoint, Ports, Search, equilibrium, linearize,
 };
 use mbs_live::Text;
-use mbs_runtime::equations::{At, Described, Room, project};
+use mbs_runtime::equations::{At, Equations, Room, project};
 use mbs_runtime::mechanism;
 
 mechanism! {
@@ -125,7 +125,7 @@ mechanism! {
 
 const G: f64 = 9.81;
 
-fn linear(mechanism: &dyn Described<f64>) -> Result<Linearization, Error> {
+fn linear(mechanism: &dyn Equations<f64>) -> Result<Linearization, Error> {
     let found = equilibrium(mechanism, &Search::default())?;
     linearize(mechanism, &OperatingPoint::from(&found), &Ports::default())
 }
@@ -322,7 +322,7 @@ fn a_suspension_has_the_modes_of_its_differenced_accelerations() -> Result<(), E
     let modes = linearize(&suspension, &point, &Ports { states, ..Ports::default() })?.modes()?;
 
     let accelerations = |change: [f64; 4]| {
-        let mechanism: &dyn Described<f64> = &suspension;
+        let mechanism: &dyn Equations<f64> = &suspension;
         let (mut q, mut v) = (found.q.clone(), vec![0.0; 4]);
         q[0] += change[0];
         q[3] += change[1];

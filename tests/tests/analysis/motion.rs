@@ -5,7 +5,7 @@
 
 use mbs_analysis::nalgebra::DVector;
 use mbs_analysis::{Error, Linearization, OperatingPoint, Ports, Search, equilibrium, linearize, of_type};
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use mbs_runtime::{Adaptive, Components, Mechanism, State, Tolerances, mechanism, start};
 
 mechanism! {
@@ -98,7 +98,7 @@ impl<M: Mechanism<Real = f64>> Moving<M> {
         run.advance_to(self.state.t + time).expect("it runs");
         let state = run.state();
         let (q, v) = (state.q.into_array(), state.v.into_array());
-        let mechanism: &dyn Described<f64> = run.mechanism();
+        let mechanism: &dyn Equations<f64> = run.mechanism();
         let at = At { t: state.t, q: q.as_ref(), v: v.as_ref() };
         let [mut a, mut lambda, mut outputs] =
             [M::INFO.coordinates.len(), M::INFO.constraints.len(), M::INFO.outputs.len()]

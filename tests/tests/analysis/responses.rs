@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use mbs_analysis::nalgebra::Complex;
 use mbs_analysis::{Error, Linearization, OperatingPoint, Ports, Search, equilibrium, linearize, phases};
-use mbs_runtime::equations::Described;
+use mbs_runtime::equations::Equations;
 use mbs_runtime::{Adaptive, Tolerances, mechanism};
 
 mechanism! {
@@ -52,7 +52,7 @@ mechanism! {
     }
 }
 
-fn linear(mechanism: &dyn Described<f64>, inputs: &[f64]) -> Result<Linearization, Error> {
+fn linear(mechanism: &dyn Equations<f64>, inputs: &[f64]) -> Result<Linearization, Error> {
     let search = Search { inputs: Some(inputs.to_vec()), ..Search::default() };
     let found = equilibrium(mechanism, &search)?;
     linearize(mechanism, &OperatingPoint::from(&found), &Ports::default())

@@ -5,7 +5,7 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
 use mbs_analysis::{Along, Error, Position, Travel, travel};
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use mbs_runtime::mechanism;
 
 mechanism! {
@@ -94,7 +94,7 @@ fn along(name: &str, samples: Vec<f64>) -> Travel {
     Travel { along: Along::Coordinate(name.into()), samples, inputs: None, from: None, t: 0.0 }
 }
 
-fn potential(mechanism: &dyn Described<f64>, position: &Position) -> f64 {
+fn potential(mechanism: &dyn Equations<f64>, position: &Position) -> f64 {
     let still = vec![0.0; position.q.len()];
     mechanism.potential_energy(At { t: position.t, q: &position.q, v: &still })
 }
@@ -194,7 +194,7 @@ fn a_link_snaps_through() {
 
 #[test]
 fn what_is_refused() {
-    let refused = |mechanism: &dyn Described<f64>, request: &Travel| {
+    let refused = |mechanism: &dyn Equations<f64>, request: &Travel| {
         travel(mechanism, request).expect_err("it is wrong")
     };
     let press = Press::declared();

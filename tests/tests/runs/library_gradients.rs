@@ -10,7 +10,7 @@ use std::path::Path;
 use mbs_codegen::FunctionId;
 use mbs_codegen::compiled::{Compiled, Input};
 use mbs_live::{Live, Run, Text};
-use mbs_runtime::equations::{At, Described, Equations, PARTIALS, Partials};
+use mbs_runtime::equations::{At, Equations, PARTIALS, Partials};
 use mbs_runtime::{Dual, System};
 use mbs_symbolic::{Operand, Program};
 use proc_macro2::{TokenStream, TokenTree};
@@ -83,7 +83,7 @@ fn arguments(live: &Live) -> Arguments<f64> {
 }
 
 /// q̈, λ and the outputs.
-fn solved<T: mbs_runtime::Real>(equations: &dyn Described<T>, given: &Arguments<T>) -> [Vec<T>; 3] {
+fn solved<T: mbs_runtime::Real>(equations: &dyn Equations<T>, given: &Arguments<T>) -> [Vec<T>; 3] {
     let info = equations.info();
     let [mut a, mut multipliers, mut outputs] =
         [info.coordinates.len(), info.constraints.len(), info.outputs.len()].map(|n| vec![T::ZERO; n]);
@@ -146,8 +146,7 @@ fn equations_of(live: &Live) {
         let duals =
             Arguments { numbers: numbers.collect(), n: given.n, lines: given.lines, inputs: given.inputs };
         let mut found = [vec![], vec![], vec![]];
-        let tools = Described::differentiable(live).unwrap();
-        tools.with_partials(duals.parameters(), &mut |equations| found = solved(equations, &duals)).unwrap();
+        live.with_partials(duals.parameters(), &mut |equations| found = solved(equations, &duals)).unwrap();
         for at in first..(first + PARTIALS).min(given.numbers.len()) {
             let step = step(&given, at);
             let moved = |change: f64| {
@@ -335,14 +334,12 @@ fn transposed_programs_have_the_derivatives_of_duals() {
                 inputs: given.inputs,
             };
             let mut terms = Vec::new();
-            let tools = Described::differentiable(&live).unwrap();
-            tools
-                .with_partials(duals.parameters(), &mut |equations| {
-                    let [a, multipliers, _] = solved(equations, &duals);
-                    let results = a.iter().chain(&multipliers).zip(&weights);
-                    terms = results.map(|(result, weight)| weight * result.partials[0]).collect();
-                })
-                .unwrap();
+            live.with_partials(duals.parameters(), &mut |equations| {
+                let [a, multipliers, _] = solved(equations, &duals);
+                let results = a.iter().chain(&multipliers).zip(&weights);
+                terms = results.map(|(result, weight)| weight * result.partials[0]).collect();
+            })
+            .unwrap();
             let (forward, size) =
                 (terms.iter().sum::<f64>(), terms.iter().map(|term| term.abs()).sum::<f64>());
             let deviation = (forward - found).abs() / (1.0 + size);

@@ -183,6 +183,17 @@ impl Equations<f64> for Pendulums {
     fn kinetic_energy(&self, at: At<'_, f64>) -> f64 {
         0.5 * at.v.iter().map(|v| v * v).sum::<f64>()
     }
+    fn potential_energy(&self, at: At<'_, f64>) -> f64 {
+        GRAVITY * at.q.iter().skip(1).step_by(2).sum::<f64>()
+    }
+    fn reactions(&self, _: At<'_, f64>, _: &[f64], _: &mut [f64], _: &mut [f64]) -> f64 {
+        f64::NAN
+    }
+    // nothing is measured, watched, drawn or a parameter
+    fn outputs(&self, _: At<'_, f64>, _: &[f64], _: [&[f64]; 2], _: &mut [f64]) {}
+    fn events(&self, _: At<'_, f64>, _: &[f64], _: &mut [f64]) {}
+    fn points(&self, _: f64, _: &[f64], _: &mut [f64]) {}
+    fn parameters(&self, _: &mut [f64]) {}
 }
 
 /// Guesses that differ from pendulum to pendulum.

@@ -1,6 +1,6 @@
 //! `force(stop)`, `torque(stop)` and `impulse(stop)`.
 
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use mbs_runtime::{
     Adaptive, Baumgarte, Components, Error, Held, Mechanism, Rk4, Simulation, System, mechanism,
 };
@@ -13,7 +13,7 @@ fn outputs<M: Mechanism<Real = f64>>(run: &Adaptive<M>) -> [f64; 2] {
     let [q, v] = [state.q, state.v].map(Components::into_array);
     let at = At { t: state.t, q: q.as_ref(), v: v.as_ref() };
     let a = &[0.0; 3][..q.as_ref().len()];
-    Described::outputs(run.mechanism(), at, run.inputs().into_array().as_ref(), [a, &[]], &mut outputs);
+    Equations::outputs(run.mechanism(), at, run.inputs().into_array().as_ref(), [a, &[]], &mut outputs);
     outputs
 }
 

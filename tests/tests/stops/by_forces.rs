@@ -137,9 +137,9 @@ type Seen = [Vec<f64>; 3];
 fn runs(text: &str, end: f64) -> [Result<Seen, Error>; 2] {
     let live = Text::declaration("forces.mbs", text).compile().expect("a mechanism");
     let seen = |run: &dyn System| {
-        let count = run.described().info().coordinates.len();
+        let count = run.equations().info().coordinates.len();
         let (mut q, mut v) = (vec![0.0; count], vec![0.0; count]);
-        let mut inputs = vec![0.0; run.described().info().inputs.len()];
+        let mut inputs = vec![0.0; run.equations().info().inputs.len()];
         run.state(&mut q, &mut v);
         run.inputs(&mut inputs);
         [q, v, inputs]

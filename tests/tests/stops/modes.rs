@@ -60,10 +60,10 @@ fn a_sample_at_a_jump_is_behind_it() -> Result<(), Error> {
     let run = Adaptive::builder(Clutch::declared()).tolerances(TIGHT).build()?;
     let mut run = Sampled::new(run, 0.5)?;
     run.advance(2)?;
-    let (mut v, mut inputs) = ([0.0; 2], vec![0.0; run.described().info().inputs.len()]);
+    let (mut v, mut inputs) = ([0.0; 2], vec![0.0; run.equations().info().inputs.len()]);
     run.state(&mut [0.0; 2], &mut v);
     run.inputs(&mut inputs);
-    let engaged = run.described().info().modes.modes[0].memory;
+    let engaged = run.equations().info().modes.modes[0].memory;
     assert!(inputs[engaged] == 1.0 && v.iter().all(|rate: &f64| (rate - 13.0 / 3.0).abs() < 1e-9), "{v:?}");
     Ok(())
 }

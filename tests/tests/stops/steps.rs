@@ -1,7 +1,7 @@
 //! Runs with constant steps: time stepping by Moreau and Jean around every method.
 
 use mbs_live::{Pack, Run, Text};
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use mbs_runtime::lanes::Pack as Lanes;
 use mbs_runtime::{Baumgarte, Dual, Error, Held, Rattle, Rk4, Simulation, System, TrBdf2, mechanism};
 
@@ -165,7 +165,7 @@ fn stops_that_close_on_each_other_end_the_run() -> Result<(), Error> {
     assert!((run.time() - 1.0).abs() < 0.02, "{}", run.time());
     let (q, v) = (run.q().to_vec(), run.v().to_vec());
     let at = At { t: run.time(), q: &q, v: &v };
-    assert!(Described::potential_energy(run.described(), at) == 0.0 && (0.0..0.1).contains(&q[0]));
+    assert!(Equations::potential_energy(run.equations(), at) == 0.0 && (0.0..0.1).contains(&q[0]));
     Ok(())
 }
 

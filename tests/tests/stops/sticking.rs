@@ -1,7 +1,7 @@
 //! Friction that sticks: Coulomb's law against closed forms, to a tolerance and with constant steps, and its refusals.
 
 use mbs_live::{Prepared, Run, Text};
-use mbs_runtime::equations::{At, Described};
+use mbs_runtime::equations::{At, Equations};
 use mbs_runtime::lanes::Pack as Lanes;
 use mbs_runtime::{
     Adaptive, Baumgarte, Dop853, Error, Held, Rk4, Sampled, Simulation, System, TrBdf2, mechanism,
@@ -45,7 +45,7 @@ fn an_oscillator_comes_to_rest_behind_eight_turning_points() -> Result<(), Error
     assert_eq!(run.inputs().rub_direction, 0.0);
     // it holds against the spring
     let (at, mut outputs) = (At { t: 0.0, q: &[run.state().q.x], v: &[0.0] }, [f64::NAN]);
-    Described::outputs(run.mechanism(), at, &[0.0; 2], [&[0.0], &[]], &mut outputs);
+    Equations::outputs(run.mechanism(), at, &[0.0; 2], [&[0.0], &[]], &mut outputs);
     assert!((outputs[0] - rest).abs() < 1e-8, "{outputs:?}");
     Ok(())
 }

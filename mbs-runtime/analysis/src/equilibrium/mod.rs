@@ -8,7 +8,7 @@ mod newton;
 mod relaxation;
 mod stiffness;
 
-use mbs_runtime::equations::{Described, Equations as _};
+use mbs_runtime::equations::Equations;
 use nalgebra::{Complex, DVector};
 
 use self::newton::newton;
@@ -242,7 +242,7 @@ impl From<&Equilibrium> for OperatingPoint {
 /// held.
 ///
 /// Drives are held where they are at `t`. Derivatives are exact for a mechanism that is
-/// [`differentiable`](Described::differentiable): a text, or a type in
+/// [differentiable](Equations::is_differentiable): a text, or a type in
 /// [`Differentiated`](mbs_runtime::equations::Differentiated). For other types they are five-point
 /// differences, about 10⁻¹¹ of their size, which bounds the rate of convergence and not the result;
 /// stiffnesses are good to ten digits then.
@@ -279,7 +279,7 @@ impl From<&Equilibrium> for OperatingPoint {
 /// Numer. Anal. 23 (1986) 707-716;
 /// C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM J.
 /// Numer. Anal. 35 (1998) 508-523.
-pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Equilibrium, Error> {
+pub fn equilibrium(mechanism: &dyn Equations<f64>, search: &Search) -> Result<Equilibrium, Error> {
     let info = mechanism.info();
     Error::refuse_rates(info, "an equilibrium")?;
     info.refuse_sticking("an equilibrium")?;
@@ -319,7 +319,7 @@ pub fn equilibrium(mechanism: &dyn Described<f64>, search: &Search) -> Result<Eq
 
 /// The same for a mechanism without stops but for those among its rows.
 fn on_rows(
-    mechanism: &dyn Described<f64>,
+    mechanism: &dyn Equations<f64>,
     search: &Search,
     mut start: DVector<f64>,
     inputs: Vec<f64>,
@@ -359,7 +359,7 @@ fn on_rows(
 }
 
 /// λ of all modes of the linear system about an equilibrium.
-fn rates(mechanism: &dyn Described<f64>, rest: &Equilibrium) -> Result<Vec<Complex<f64>>, Error> {
+fn rates(mechanism: &dyn Equations<f64>, rest: &Equilibrium) -> Result<Vec<Complex<f64>>, Error> {
     let linear = on_its_rows(mechanism, &OperatingPoint::from(rest), &Ports::default())?;
     Ok(linear.modes()?.into_iter().map(|mode| mode.eigenvalue).collect())
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mbs_runtime::equations::{Described, Partials};
+use mbs_runtime::equations::{Equations, Partials};
 use mbs_runtime::{Adaptive, Dopri5, Dynamics, Error, Mechanism, Sampled, System, Tolerances};
 
 use crate::family::components;
@@ -53,7 +53,7 @@ pub trait Trials {
 pub type See<'a> = dyn FnMut(usize, &dyn System<Partials>) -> Result<(), Error> + 'a;
 
 /// A function of a mechanism and its declared positions.
-pub type Look<'a> = dyn FnMut(&dyn Described<Partials>, &[Partials]) + 'a;
+pub type Look<'a> = dyn FnMut(&dyn Equations<Partials>, &[Partials]) + 'a;
 
 /// A run that is tried.
 ///
@@ -128,7 +128,7 @@ where
     fn look(&self, parameters: &[Partials], look: &mut Look<'_>) -> Result<(), Error> {
         let dynamics = self(parameters)?;
         let (_, q, _) = dynamics.declared_start();
-        look(dynamics.described(), q.as_ref());
+        look(dynamics.equations(), q.as_ref());
         Ok(())
     }
 

@@ -9,7 +9,7 @@
 //! the continuation; T. R. Chase, J. A. Mirth, Circuits and branches of single-degree-of-freedom planar linkages,
 //! ASME J. Mech. Des. 115 (1993) 223-230, for the defects.
 
-use mbs_runtime::equations::{Described, PARTIALS, Partials};
+use mbs_runtime::equations::{Equations, PARTIALS, Partials};
 use nalgebra::{DMatrix, DVector};
 
 use super::system::{Guess, System, nearest_turn, seeded, store};
@@ -44,7 +44,7 @@ pub fn passage(system: &System<'_>, guess: &Guess) -> Result<Vec<Vec<f64>>, Defe
 /// The curve on which a mechanism moves, in coordinates that are measured by their sizes.
 struct Curve<'a> {
     system: &'a System<'a>,
-    mechanism: &'a dyn Described<Partials>,
+    mechanism: &'a dyn Equations<Partials>,
     guess: &'a Guess,
 }
 

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use mbs_runtime::equations::{At, Described, PARTIALS, Partials};
+use mbs_runtime::equations::{At, Equations, PARTIALS, Partials};
 use mbs_runtime::{Dimension, Info};
 use nalgebra::{DMatrix, DVector};
 
@@ -107,7 +107,7 @@ impl<'a> System<'a> {
     /// Writes the residuals at a position; the constraints count `weight` times.
     fn residuals(
         &self,
-        mechanism: &dyn Described<Partials>,
+        mechanism: &dyn Equations<Partials>,
         q: &[Partials],
         position: usize,
         weight: f64,

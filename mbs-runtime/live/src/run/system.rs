@@ -1,13 +1,21 @@
 //! A run as tools see it.
 
-use mbs_runtime::equations::{self, At, Described, Equations, Room, check_outputs};
-use mbs_runtime::{Error, Real, System, WorstPlace};
+use mbs_runtime::equations::{self, At, Equations, Room, check_outputs};
+use mbs_runtime::{Derivation, Error, Real, Sketch, System, WorstPlace};
 
 use super::{Run, copy};
 
 impl<T: Real> System<T> for Run<T> {
-    fn described(&self) -> &dyn Described<T> {
+    fn equations(&self) -> &dyn Equations<T> {
         &self.mechanism
+    }
+
+    fn derivation(&self) -> &Derivation {
+        self.mechanism.derivation()
+    }
+
+    fn sketch(&self) -> &Sketch {
+        self.mechanism.sketch()
     }
 
     fn time(&self) -> T {
@@ -55,7 +63,7 @@ impl<T: Real> System<T> for Run<T> {
     fn outputs(&self, acceleration: &[T], multipliers: &[T], outputs: &mut [T]) -> Result<(), Error> {
         let [q, v] = self.completed();
         let at = At { t: self.t, q: &q, v: &v };
-        Described::outputs(&self.mechanism, at, &self.inputs, [acceleration, multipliers], outputs);
+        Equations::outputs(&self.mechanism, at, &self.inputs, [acceleration, multipliers], outputs);
         check_outputs(self.mechanism.declared_info(), self.t, outputs)
     }
 

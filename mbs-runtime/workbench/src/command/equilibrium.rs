@@ -64,7 +64,7 @@ impl Arguments {
         let from = pairs(&self.from)?;
         let about = About { from, at: self.at.clone(), is_relaxed: self.relax, ..About::default() };
         let (run, search) = about.search(model, &start)?;
-        let rest = equilibrium(run.described(), &search)?;
+        let rest = equilibrium(run.equations(), &search)?;
         let shown = Found::of(name, model.info(), &*run, &rest);
         if let Some(path) = sketch {
             Figure::mechanism(name, Picture::of(&still(&*run, model.sketch(), &rest))).save(path)?;
@@ -103,7 +103,7 @@ impl<'a> Found<'a> {
         let (still, point) = (vec![0.0; rest.q.len()], OperatingPoint::from(rest));
         let at = At { t: rest.t, q: &point.q, v: &point.v };
         let mut outputs = vec![f64::NAN; info.outputs.len()];
-        run.described().outputs(at, &rest.inputs, [&still, &rest.multipliers], &mut outputs);
+        run.equations().outputs(at, &rest.inputs, [&still, &rest.multipliers], &mut outputs);
         let coordinates = info.coordinates.iter().zip(&rest.q);
         let reactions = info.constraints.iter().zip(&rest.multipliers);
         let reactions = reactions.map(|(row, x)| (row.name, *x, Unit::of_multiplier(row.dimension)));

@@ -41,7 +41,7 @@ impl Arguments {
         } else {
             let declared = Start { kind: StartKind::Declared, ..Start::of(model, &model.defaults())? };
             let run = model.start(&declared)?;
-            let switches = switches(run.described().switching());
+            let switches = switches(run.equations().switching());
             plain(info, derivation)
                 + &switches
                 + &stops(info)

@@ -92,7 +92,7 @@ impl Arguments {
         let [from, to] = wanted.span;
         let times: Vec<f64> =
             (0..count).map(|at| from + (to - from) * f64::from(at) / f64::from(count - 1)).collect();
-        let instants = inverse(run.described(), &prescription, &times)?;
+        let instants = inverse(run.equations(), &prescription, &times)?;
         let shown = Shown::of(info, &prescription, &instants);
         if let Some(path) = plot {
             shown.figure(&format!("{name}: what the motion takes")).save(path)?;

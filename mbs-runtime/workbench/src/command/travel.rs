@@ -90,7 +90,7 @@ impl Arguments {
             from: search.from,
             t: search.t,
         };
-        let found = travel(run.described(), &request)?;
+        let found = travel(run.equations(), &request)?;
         let shown = Shown::of(info, &lead, &loads, &found);
         if let Some(path) = plot {
             shown.figure(&format!("{name}: effort over travel")).save(path)?;

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use host::{Given, Host};
 use mbs_live::{Live, Stepper, Text};
-use mbs_runtime::equations::{At, Described, Equations};
+use mbs_runtime::equations::{At, Equations};
 use mbs_runtime::{Explicit, Gains};
 
 /// Uniform in −1 … 1.

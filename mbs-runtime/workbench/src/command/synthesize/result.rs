@@ -154,7 +154,7 @@ impl Shown<'_> {
         let mut columns = vec![Vec::new(); self.task.columns.len()];
         for q in &best.path {
             let at = At { t: 0.0, q: q.as_slice(), v: &still };
-            run.described().outputs(at, &inputs, [&still, &multipliers], &mut outputs);
+            run.equations().outputs(at, &inputs, [&still, &multipliers], &mut outputs);
             for ((column, name), unit) in columns.iter_mut().zip(&self.task.columns).zip(self.units) {
                 let coordinate = info.coordinates.iter().position(|q| q.name == name);
                 let output = info.outputs.iter().position(|output| output.name == name);

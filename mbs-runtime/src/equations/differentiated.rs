@@ -3,26 +3,23 @@
 //! Compiling the equations over duals takes 0.9 s for a type like the slider-crank. So only `Differentiated`
 //! does it for a type.
 
-use crate::equations::{At, Described, Equations, read};
-use crate::{Derivation, Dual, Error, Gains, Info, Mechanism, Sketch, Switch};
+use super::{At, Equations, read};
+use crate::{Dual, Error, Gains, Info, Mechanism, Switch};
 
-/// How many partial derivatives [`Differentiable`] equations carry at once.
+/// How many partial derivatives equations over duals carry at once.
 pub const PARTIALS: usize = 4;
 
 /// A number with [`PARTIALS`] partial derivatives.
 pub type Partials = Dual<f64, PARTIALS>;
 
-/// A mechanism whose equations can be had over duals, although only an object is known of it: the
+/// A mechanism of `mechanism!` whose equations tools can have over duals, although they know only an object: the
 /// derivatives of accelerations, reactions and outputs by positions, velocities, inputs, time and
-/// parameters, for tools.
-///
-/// Texts are. A type is if it stands in [`Differentiated`], because its equations are compiled
-/// once more for that. [`Described::differentiable`] says whether an object is.
+/// parameters. Its equations are compiled for duals too, which takes about as long as the rest of it. Texts need no such type.
 ///
 /// # Example
 /// How the acceleration of a swing from the side changes with its length, and along its path:
 /// ```
-/// use mbs_runtime::equations::{At, Described, Differentiable, Differentiated, Partials};
+/// use mbs_runtime::equations::{At, Differentiated, Equations, Partials};
 /// use mbs_runtime::mechanism;
 /// # mechanism! {
 /// #     pub Pendulum {
@@ -35,16 +32,16 @@ pub type Partials = Dual<f64, PARTIALS>;
 /// #     }
 /// # }
 /// let swing = Differentiated(Pendulum::declared());
-/// let object: &dyn Described<f64> = &swing;
+/// let object: &dyn Equations<f64> = &swing;
+/// assert!(object.is_differentiable());
 ///
-/// let tools = object.differentiable().expect("it was made to be");
 /// let length = Partials::constant(1.0);
 /// let still = [Partials::constant(0.0); 2];
 /// // along the path x = cos s, y = sin s the acceleration is −g sin s in the one direction and
 /// // −g cos s in the other
 /// let q = [Partials::constant(1.0), Partials::variable(0.0, 0)];
 /// let (mut a, mut multipliers) = ([Partials::default(); 2], [Partials::default()]);
-/// tools.with_partials(&[length], &mut |equations| {
+/// object.with_partials(&[length], &mut |equations| {
 ///     let at = At { t: Partials::default(), q: &q, v: &still };
 ///     equations.reactions(at, &[], &mut a, &mut multipliers);
 /// })?;
@@ -52,34 +49,8 @@ pub type Partials = Dual<f64, PARTIALS>;
 /// assert!((a[0].partials[0] - 9.81).abs() < 1e-14);
 /// # Ok::<(), mbs_runtime::Error>(())
 /// ```
-pub trait Differentiable: Described<f64> {
-    /// Does something with the equations over duals, with these parameters: constants, or
-    /// variables.
-    ///
-    /// # Errors
-    /// As [`Mechanism::new`].
-    fn with_partials(
-        &self,
-        parameters: &[Partials],
-        what: &mut dyn FnMut(&dyn Described<Partials>),
-    ) -> Result<(), Error>;
-}
-
-/// A mechanism of `mechanism!` that is [`Differentiable`]. Its equations are compiled for duals
-/// too, which takes about as long as the rest of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Differentiated<M>(pub M);
-
-impl<M: Mechanism<Real = f64>> Differentiable for Differentiated<M> {
-    fn with_partials(
-        &self,
-        parameters: &[Partials],
-        what: &mut dyn FnMut(&dyn Described<Partials>),
-    ) -> Result<(), Error> {
-        what(&M::Over::<Partials>::new(read(parameters))?);
-        Ok(())
-    }
-}
 
 /// Methods that are those of the mechanism inside.
 macro_rules! of_the_mechanism {
@@ -117,22 +88,24 @@ impl<M: Mechanism<Real = f64>> Equations<f64> for Differentiated<M> {
         Equations::transitions(at: At<'_, f64>, inputs: &[f64], reactions: [&[f64]; 2], values: &mut [f64]);
         Equations::sample(at: At<'_, f64>, inputs: &mut [f64], clock: usize);
         Equations::kinetic_energy(at: At<'_, f64>) -> f64;
-    }
-}
-
-impl<M: Mechanism<Real = f64>> Described<f64> for Differentiated<M> {
-    of_the_mechanism! {
-        Described::reactions(at: At<'_, f64>, inputs: &[f64], a: &mut [f64], multipliers: &mut [f64]) -> f64;
-        Described::outputs(at: At<'_, f64>, inputs: &[f64], reactions: [&[f64]; 2], outputs: &mut [f64]);
-        Described::events(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
-        Described::potential_energy(at: At<'_, f64>) -> f64;
-        Described::points(t: f64, q: &[f64], points: &mut [f64]);
-        Described::parameters(parameters: &mut [f64]);
-        Described::derivation() -> &Derivation;
-        Described::sketch() -> &Sketch;
+        Equations::reactions(at: At<'_, f64>, inputs: &[f64], a: &mut [f64], multipliers: &mut [f64]) -> f64;
+        Equations::outputs(at: At<'_, f64>, inputs: &[f64], reactions: [&[f64]; 2], outputs: &mut [f64]);
+        Equations::events(at: At<'_, f64>, inputs: &[f64], values: &mut [f64]);
+        Equations::potential_energy(at: At<'_, f64>) -> f64;
+        Equations::points(t: f64, q: &[f64], points: &mut [f64]);
+        Equations::parameters(parameters: &mut [f64]);
     }
 
-    fn differentiable(&self) -> Option<&dyn Differentiable> {
-        Some(self)
+    fn is_differentiable(&self) -> bool {
+        true
+    }
+
+    fn with_partials(
+        &self,
+        parameters: &[Partials],
+        what: &mut dyn FnMut(&dyn Equations<Partials>),
+    ) -> Result<(), Error> {
+        what(&M::Over::<Partials>::new(read(parameters))?);
+        Ok(())
     }
 }
