@@ -405,9 +405,8 @@ pub trait Mechanism: Copy + core::fmt::Debug + Send + Sync + 'static {
 
 /// True if the fused step of a mechanism is one of this method: that of its scheme, with
 /// feedback.
-#[inline(always)]
-pub(crate) fn is_fused_for<M: Mechanism, X: Method>() -> bool {
-    const { M::Scheme::TABLEAU.is(X::Scheme::TABLEAU) && !X::EXPLICIT.is_projected() }
+pub(crate) const fn is_fused_for<M: Mechanism, X: Method>() -> bool {
+    M::Scheme::TABLEAU.is(X::Scheme::TABLEAU) && !X::EXPLICIT.is_projected()
 }
 
 /// The pivot growth from which on a position counts as singular: 1/(1024 ε),

@@ -18,7 +18,7 @@ const ROUNDINGS: f64 = 64.0;
 /// constraint is redundant.
 #[inline(always)]
 pub(crate) fn margin<M: Mechanism>(mechanism: &M, at: &State<M::States>, length: M::Real) -> M::Real {
-    if M::INFO.redundant.is_empty() {
+    if const { M::INFO.redundant.is_empty() } {
         return length;
     }
     let all = mechanism.complete(at);

@@ -102,6 +102,10 @@ impl<D: Dynamics> Dynamics for Driven<D> {
     type Constraints = D::Constraints;
     type Inputs = D::Inputs;
 
+    const JUMPS: bool = D::JUMPS;
+    const SAMPLES: bool = D::SAMPLES;
+    const SWITCHES: bool = D::SWITCHES;
+
     fn equations(&self) -> &dyn Equations<D::Real> {
         self
     }

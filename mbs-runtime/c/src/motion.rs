@@ -161,6 +161,10 @@ impl implicit::Visitor for Sampling<'_> {
 
 impl Sampling<'_> {
     fn with_scheme<S: AdaptiveScheme>(self) -> Result<Box<dyn SystemClone>, Failure> {
+        // nothing more is compiled for a scheme without an estimate
+        if const { S::ESTIMATE.is_none() } {
+            return Err(Error::NoEstimate { scheme: S::WORD }.into());
+        }
         let Self { settings, live, tolerances } = self;
         let builder = Adaptive::builder(Prepared::new(live)).scheme::<S>().tolerances(tolerances);
         let mut builder = builder.inputs(settings.inputs.clone());

@@ -13,7 +13,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// The first time behind the present one at which a step ends: at a corner of the accelerations, or at a sample.
     pub(super) fn next_corner(&self) -> D::Real {
         let corner = self.dynamics.next_corner(self.now.t, &self.inputs);
-        if self.dynamics.info().sampling.clocks == 0 {
+        if !D::SAMPLES || self.dynamics.info().sampling.clocks == 0 {
             return corner;
         }
         let sample = next_sample(self.dynamics.equations(), self.now.t, self.sampled);
@@ -23,8 +23,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// True if a sample is due at the present time that has not been taken. Between steps it is not before its time, where a
     /// table may jump; at the end of a run it is if it is before that by a rounding.
     fn is_due(&self, is_exact: bool) -> bool {
-        let has_clocks = self.dynamics.info().sampling.clocks > 0;
-        has_clocks && is_sample(self.dynamics.equations(), self.now.t, self.sampled, is_exact)
+        D::SAMPLES && is_sample(self.dynamics.equations(), self.now.t, self.sampled, is_exact)
     }
 
     /// Takes the samples that are due at the present time, once, and makes the jumps of the modes that they enter.
@@ -32,7 +31,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// Those of the jump.
     pub(super) fn sample(&mut self, is_exact: bool) -> Result<(), Error> {
-        if !self.is_due(is_exact) {
+        if !D::SAMPLES || !self.is_due(is_exact) {
             return Ok(());
         }
         self.take_samples();
@@ -41,7 +40,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// Takes the samples of a start, if some are due.
     pub(super) fn sample_at_start(&mut self) {
-        if self.is_due(false) {
+        if D::SAMPLES && self.is_due(false) {
             self.take_samples();
         }
     }
@@ -63,7 +62,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         is_exact: bool,
         watched: &mut Watched<'_, D>,
     ) -> Result<(), Error> {
-        if !(self.is_due(is_exact) || self.stopping.reached != 0) {
+        if !(D::SAMPLES || D::JUMPS) || !(self.is_due(is_exact) || self.stopping.reached != 0) {
             return Ok(());
         }
         let before = self.watched_now(watched);

@@ -172,7 +172,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let (number, zero) = (D::Real::from_f64, D::Real::default());
         let direction = watched.direction(&self.dynamics, index)?;
         let (start, end) = (self.before.t, self.now.t);
-        if let Some(transition) = gaps::transition_in(self.dynamics.equations(), index) {
+        if D::JUMPS
+            && let Some(transition) = gaps::transition_in(self.dynamics.equations(), index)
+        {
             return self.beginning_to_hold(index, transition, watched);
         }
         let Beginning { first, t: mut from, value: mut before, is_zero, .. } = self.beginning(index, watched);
@@ -183,10 +185,10 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             return Some(Bracket { from: start, to: from, is_rising });
         }
         // friction that holds with all that it can at the start, and then more
-        if first == zero && before < zero && !self.is_at_event(index) && self.is_sticking(index) {
+        if D::JUMPS && first == zero && before < zero && !self.is_at_event(index) && self.is_sticking(index) {
             return Some(Bracket { from: start, to: from, is_rising: false });
         }
-        if gaps::stop_in(self.dynamics.equations(), index).is_some() {
+        if D::JUMPS && gaps::stop_in(self.dynamics.equations(), index).is_some() {
             return self.closing(index, (from, before), watched);
         }
         for part in 1..=PARTS {

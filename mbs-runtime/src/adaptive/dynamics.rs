@@ -32,6 +32,13 @@ pub trait Dynamics: Clone + Send {
     /// The inputs.
     type Inputs: Clone + Send;
 
+    /// False of a type of which velocities and memories never jump: what a jump takes is not compiled then.
+    const JUMPS: bool = true;
+    /// False of a type without clocks.
+    const SAMPLES: bool = true;
+    /// False of a type whose laws neither bend nor jump.
+    const SWITCHES: bool = true;
+
     /// Its equations on slices.
     fn equations(&self) -> &dyn Equations<Self::Real>;
 
@@ -114,7 +121,8 @@ pub trait Dynamics: Clone + Send {
         acceleration: &mut Self::States,
     ) -> Self::Real {
         let growth = self.free_acceleration(t, q, v, inputs, acceleration);
-        if self.info().contacts() > 0 { growth + self.press(t, [q, v], inputs, acceleration) } else { growth }
+        let is_pressed = Self::JUMPS && self.info().contacts() > 0;
+        if is_pressed { growth + self.press(t, [q, v], inputs, acceleration) } else { growth }
     }
 
     /// Adds to accelerations what the stops do that are rested on; the pivot growth of their responses.
@@ -173,6 +181,10 @@ impl<M: Mechanism> Dynamics for M {
     type States = arrays::States<M>;
     type Constraints = arrays::Constraints<M>;
     type Inputs = M::Inputs;
+
+    const JUMPS: bool = M::INFO.jumps();
+    const SAMPLES: bool = M::INFO.sampling.clocks > 0;
+    const SWITCHES: bool = !M::SWITCHES.is_empty();
 
     fn equations(&self) -> &dyn Equations<M::Real> {
         self

@@ -187,10 +187,14 @@ impl<D: Dynamics> Watched<'_, D> {
         dynamics.complete(*t, q, v, all);
         let [q, v] = all;
         let at = At { t: *t, q: q.as_ref(), v: v.as_ref() };
-        if let Some(stop) = gaps::stop_in(dynamics.equations(), index) {
+        if D::JUMPS
+            && let Some(stop) = gaps::stop_in(dynamics.equations(), index)
+        {
             return gaps::value(dynamics, inputs, at, stop);
         }
-        if let Some(transition) = gaps::transition_in(dynamics.equations(), index) {
+        if D::JUMPS
+            && let Some(transition) = gaps::transition_in(dynamics.equations(), index)
+        {
             return gaps::value_of_transition(dynamics, inputs, at, transition);
         }
         (self.values)(dynamics, inputs, at, self.room);

@@ -41,7 +41,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// Looks for the first stop that was reached in the last step, where nothing else is watched.
     pub(super) fn look_for_stops(&mut self) -> Result<(), Error> {
-        if !self.jumps() {
+        if !D::JUMPS || !self.jumps() {
             return Ok(());
         }
         let mut watched = Watched {
@@ -66,7 +66,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// Nor is it where a stop is left.
     pub(super) fn forget_releases(&mut self) {
-        if self.jumps() {
+        if D::JUMPS && self.jumps() {
             let held = self.with_jump(|jump| held(jump.dynamics.equations(), jump.inputs));
             self.happened.due &= !watched_of(held);
         }
@@ -78,7 +78,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::Impact`].
     pub(super) fn look_at_rests(&mut self) -> Result<(), Error> {
-        if !self.jumps() {
+        if !D::JUMPS || !self.jumps() {
             return Ok(());
         }
         self.stopping.effort = self.effort;
@@ -105,6 +105,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::Impact`].
     pub(super) fn jump(&mut self) -> Result<(), Error> {
+        if !D::JUMPS {
+            return Ok(());
+        }
         let reached = core::mem::take(&mut self.stopping.reached);
         if reached == 0 { Ok(()) } else { self.jump_at(reached, true) }
     }
@@ -114,7 +117,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::Behind`], [`Error::Impact`].
     pub(super) fn touch(&mut self) -> Result<(), Error> {
-        if !self.jumps() {
+        if !D::JUMPS || !self.jumps() {
             return Ok(());
         }
         let (t, stops) = (self.now.t.to_f64(), self.dynamics.info().stops);
@@ -149,7 +152,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// # Errors
     /// [`Error::Undefined`].
     pub(super) fn check_gaps(&mut self) -> Result<(), Error> {
-        if self.dynamics.info().stops.is_empty() {
+        if !D::JUMPS || self.dynamics.info().stops.is_empty() {
             return Ok(());
         }
         let Self { dynamics, now, all, .. } = self;
@@ -164,6 +167,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// Goes back to where the last step began if that was too long to see what gaps do in it; true if it does.
     pub(super) fn is_shorter(&mut self) -> bool {
+        if !D::JUMPS {
+            return false;
+        }
         let h = (self.now.t - self.before.t).to_f64();
         let is_long = core::mem::take(&mut self.stopping.is_too_long) && h > SHORT * self.effort.longest;
         if is_long {
@@ -178,6 +184,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
 
     /// True of what is watched of a friction that sticks.
     pub(super) fn is_sticking(&mut self, index: usize) -> bool {
+        if !D::JUMPS {
+            return false;
+        }
         let Some(row) = stop_in(self.dynamics.equations(), index) else { return false };
         let sticking = self.with_jump(|jump| {
             let equations = jump.dynamics.equations();
@@ -189,6 +198,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// True of a stop or a friction that others hold: a stop that stays closed in the last step and is not rested on, a
     /// friction that slides and does not move in it.
     pub(super) fn is_held_by_others(&mut self, index: usize, watched: &mut Watched<'_, D>) -> bool {
+        if !D::JUMPS {
+            return false;
+        }
         let Some(row) = stop_in(self.dynamics.equations(), index) else { return false };
         let (size, ends) = (CLOSED * self.stopping.size, [self.before.t, self.now.t]);
         let h = (ends[1] - ends[0]).to_f64();
@@ -208,6 +220,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// True of the friction of a stop that has been looked at too often where the last step began: its slip is rounding. A slip
     /// against its direction that is more than rounding is found at the next step.
     pub(super) fn is_idle_at_stops(&self, index: usize) -> bool {
+        if !D::JUMPS {
+            return false;
+        }
         let equations = self.dynamics.equations();
         let row = stop_in(equations, index);
         let is_rubbing = row.is_some_and(|row| has(all_rubbing(equations.info()), row));
@@ -227,7 +242,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// Leads the end of a step back to the stops that are rested on, as joints are led back to their constraints. One whose
     /// velocity jumps, as a floor does that a table moves, hits what rests on it.
     pub(super) fn stay(&mut self) {
-        if !self.jumps() {
+        if !D::JUMPS || !self.jumps() {
             return;
         }
         let size = self.stopping.size;

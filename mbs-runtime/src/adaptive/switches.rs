@@ -42,7 +42,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// [`Error::Sliding`] and [`Error::Undecided`].
     pub(super) fn look_at_switches(&mut self, was_rejected: bool) -> Result<(), Error> {
         let switches = self.dynamics.switching();
-        if switches.is_empty() {
+        if !D::SWITCHES || switches.is_empty() {
             return Ok(());
         }
         let next = self.control.next;
@@ -137,7 +137,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     pub(super) fn judged(&mut self, ratio: f64) -> f64 {
         let switches = self.dynamics.switching();
         let is_good = ratio <= 1.0;
-        if switches.is_empty() || !is_good {
+        if !D::SWITCHES || switches.is_empty() || !is_good {
             return ratio;
         }
         let Self { dynamics, inputs, now, next, all, .. } = self;

@@ -206,7 +206,7 @@ impl<M: Mechanism> Equations<M::Real> for M {
         multipliers: &mut [M::Real],
     ) -> M::Real {
         let growth = self.free_reactions(at, inputs, acceleration, multipliers);
-        if M::INFO.contacts() == 0 {
+        if const { M::INFO.contacts() == 0 } {
             return growth;
         }
         growth + press(self, at, inputs, acceleration, Some(multipliers))
@@ -254,7 +254,7 @@ pub(crate) fn measured<M: Mechanism>(
     inputs: &M::Inputs,
     reactions: &Reactions<M::Coordinates, M::Constraints>,
 ) -> M::Outputs {
-    if M::INFO.holds() {
+    if const { M::INFO.holds() } {
         return mechanism.outputs(at, &held(mechanism, at, inputs), reactions);
     }
     mechanism.outputs(at, inputs, reactions)

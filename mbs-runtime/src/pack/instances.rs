@@ -225,10 +225,10 @@ pub(super) fn steps_to_sample<
     members: &[S; N],
     now: &Moment<M, N>,
 ) -> u64 {
-    if M::INFO.jumps() {
+    if const { M::INFO.jumps() } {
         return 1;
     }
-    if M::INFO.sampling.clocks == 0 {
+    if const { M::INFO.sampling.clocks == 0 } {
         return u64::MAX;
     }
     let left = members.iter().zip(now.steps.0).map(|(member, steps)| {
@@ -246,7 +246,7 @@ pub(super) fn push<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M, 
     now: &mut Moment<M, N>,
 ) -> Option<[Pushed<M::Real>; N]> {
     let mut all = [Pushed::NONE; N];
-    if !M::INFO.jumps() {
+    if const { !M::INFO.jumps() } {
         return Some(all);
     }
     for lane in 0..N {
@@ -267,7 +267,7 @@ pub(super) fn strike<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M
     before: &Moment<M, N>,
     (pushed, now): (&[Pushed<M::Real>; N], &mut Moment<M, N>),
 ) -> bool {
-    if !M::INFO.jumps() {
+    if const { !M::INFO.jumps() } {
         return true;
     }
     let (mut struck, mut memories) = (*now, *instances);
@@ -292,7 +292,7 @@ pub(super) fn sample<M: Mechanism<Real: Lane>, X: Method, S: Borrow<Simulation<M
     instances: &mut Instances<M, N>,
     now: &Moment<M, N>,
 ) {
-    if M::INFO.sampling.clocks == 0 {
+    if const { M::INFO.sampling.clocks == 0 } {
         return;
     }
     for lane in 0..N {

@@ -31,7 +31,7 @@ pub(super) fn lane_after_lane<M, X, S, const N: usize>(
         for taken in 1..=steps {
             let t = member.start_time() + M::Real::from_f64(now.steps.0[lane] + taken as f64) * h;
             let growth = step_in_place::<M, X>(mechanism, &mut at, &inputs, &gains, h, t);
-            let spare = match M::INFO.redundant.is_empty() {
+            let spare = match const { M::INFO.redundant.is_empty() } {
                 true => None,
                 false => Some(spare::margin(mechanism, &at, watches[lane].length)),
             };

@@ -193,7 +193,7 @@ where
         let mut now = self.now;
         let Some(pushed) = push(members, instances, &mut now) else { return false };
         let mut margin = Lanes::default();
-        if !is_fused_for::<M, X>() && is_in_loops::<M>() {
+        if const { !is_fused_for::<M, X>() } && is_in_loops::<M>() {
             lane_after_lane::<M, X, S, N>(members, instances, watches, steps, &mut now, &mut margin);
         } else {
             // a float, because the conversion of an integer would take as long as ten operations
@@ -283,7 +283,7 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
     now: &mut Moment<M, N>,
     margin: &mut Lanes<M::Real, N>,
 ) {
-    if N > 1 && !is_fused_for::<M, X>() && !is_in_loops::<M>() {
+    if const { N > 1 && !is_fused_for::<M, X>() } && !is_in_loops::<M>() {
         step_together::<M, X, N>(instances, pace, watches, uncounted, now, margin);
         return;
     }
@@ -294,7 +294,7 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         let (mechanism, inputs) = (instances.mechanism_of(lane), instances.inputs_of(lane));
         let at = now.state_of(lane);
         // without a closure, which may be a function of its own, of a target that has no such vectors
-        let fused = match is_fused_for::<M, X>() {
+        let fused = match const { is_fused_for::<M, X>() } {
             true => mechanism.fused_step::<X>(&at, &inputs, &gains, step, t),
             false => None,
         };
@@ -306,7 +306,7 @@ fn step_all<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
                 (next, growth.0)
             }
         };
-        let spare = match M::INFO.redundant.is_empty() {
+        let spare = match const { M::INFO.redundant.is_empty() } {
             true => None,
             false => Some(spare::margin(&mechanism, &next, Straight(watches[lane].length)).0),
         };
@@ -344,7 +344,7 @@ fn step_together<M: Mechanism<Real: Lane>, X: Method, const N: usize>(
         trial_in_place::<Many<M, N>, X>(&instances.mechanism, &at, &inputs, &pace.gains, &span);
     (now.t, now.q, now.v) = (next.t, next.q.into_array(), next.v.into_array());
     for lane in 0..N {
-        let spare = match M::INFO.redundant.is_empty() {
+        let spare = match const { M::INFO.redundant.is_empty() } {
             true => None,
             false => {
                 let (mechanism, next) = (instances.mechanism_of(lane), now.state_of(lane));

@@ -34,7 +34,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// A step in stages, and the samples that are due at its end.
     #[doc(hidden)]
     pub fn step_in_stages(&mut self) -> Result<(), Error> {
-        if !M::INFO.jumps() {
+        if const { !M::INFO.jumps() } {
             self.step_by_stages()?;
         } else {
             self.step_to_stops(Self::step_by_stages)?;
@@ -83,7 +83,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// # Errors
     /// Those of [`begin`](moreau::begin).
     pub(super) fn touch(&mut self) -> Result<(), Error> {
-        if !M::INFO.jumps() {
+        if const { !M::INFO.jumps() } {
             return Ok(());
         }
         let (state, mut inputs) = (Arrays::of(&self.state()), self.inputs.into_array());
@@ -182,7 +182,7 @@ pub(crate) fn press<M: Mechanism>(
     inputs: &M::Inputs,
     to: &mut Reactions<M::Coordinates, M::Constraints>,
 ) {
-    if M::INFO.jumps() {
+    if const { M::INFO.jumps() } {
         *to = pressed(mechanism, at, inputs, to);
     }
 }

@@ -109,7 +109,7 @@ impl<M: Transposed<Real = f64>, X: Method> Reversible for Simulation<M, X> {
             Stabilization::PerStage => Some(Function::StepPerStage),
             Stabilization::Projection => None,
         }
-        .filter(|_| M::HAS_STEP && is_fused_for::<M, X>())
+        .filter(|_| const { M::HAS_STEP && is_fused_for::<M, X>() })
     }
 
     fn hoisted(&self) -> usize {

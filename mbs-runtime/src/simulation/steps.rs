@@ -33,7 +33,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// [`step`](Self::step), always inlined into its caller.
     #[inline(always)]
     fn inlined_step(&mut self) -> Result<(), Error> {
-        if !M::INFO.jumps() {
+        if const { !M::INFO.jumps() } {
             self.step_between()?;
         } else {
             self.step_to_stops(Self::step_between)?;
@@ -50,7 +50,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         // Written so that a NaN fails the test. The state is stored from registers,
         // pair by pair; through a `Result` it would be copied in other pieces than
         // those in which it was written, for which processors wait.
-        if is_fused_for::<M, X>()
+        if const { is_fused_for::<M, X>() }
             && let Some(fused) = mechanism.fused_step::<X>(&self.present(), inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm
             && fused.sum.is_finite()
@@ -63,14 +63,14 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
         }
         let Self { mechanism, state, inputs, gains, step, watch, .. } = self;
         // in place, so that nothing could be looked at before it is taken
-        if M::INFO.redundant.is_empty()
+        if const { M::INFO.redundant.is_empty() }
             && let Some(growth) = mechanism.long_step::<X>(state, inputs, gains, *step, t_next, watch.alarm)
         {
             self.steps += 1.0;
             self.watch.note(growth);
             return Ok(());
         }
-        if !is_fused_for::<M, X>() && self.step_unfused(t_next) {
+        if const { !is_fused_for::<M, X>() } && self.step_unfused(t_next) {
             return Ok(());
         }
         self.step_by_stages()
@@ -79,7 +79,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     /// Takes the samples that are due.
     #[inline(always)]
     pub(super) fn sample(&mut self) {
-        if M::INFO.sampling.clocks > 0 {
+        if const { M::INFO.sampling.clocks > 0 } {
             self.sample_clocks();
         }
     }
@@ -134,8 +134,7 @@ impl<M: Mechanism, X: Method> Simulation<M, X> {
     pub fn step_with_reactions(&mut self) -> Result<Reactions<M::Coordinates, M::Constraints>, Error> {
         let t_next = self.next_time();
         let Self { mechanism, inputs, gains, step, watch, .. } = &*self;
-        if is_fused_for::<M, X>()
-            && !M::INFO.jumps()
+        if const { is_fused_for::<M, X>() && !M::INFO.jumps() }
             && let Some((fused, reactions)) =
                 mechanism.fused_step_with_reactions::<X>(&self.present(), inputs, gains, *step, t_next)
             && fused.growth <= watch.alarm

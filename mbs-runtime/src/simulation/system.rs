@@ -54,7 +54,11 @@ impl<M: Mechanism, X: Method> System<M::Real> for Simulation<M, X> {
     // Other methods than the declared one run in stages on slices, which give the same numbers
     // and are compiled once for all of them.
     fn step(&mut self) -> Result<(), Error> {
-        if is_fused_for::<M, X>() && X::EXPLICIT.is_held() { self.step() } else { self.step_in_stages() }
+        if const { is_fused_for::<M, X>() && X::EXPLICIT.is_held() } {
+            self.step()
+        } else {
+            self.step_in_stages()
+        }
     }
 
     fn reactions(&self, acceleration: &mut [M::Real], multipliers: &mut [M::Real]) -> Result<(), Error> {

@@ -94,6 +94,10 @@ impl implicit::Visitor for Started<'_> {
 
 impl Started<'_> {
     fn with_scheme<S: AdaptiveScheme>(self) -> Result<Box<dyn SystemClone>, Error> {
+        // nothing more is compiled for a scheme without an estimate
+        if const { S::ESTIMATE.is_none() } {
+            return Err(Error::NoEstimate { scheme: S::WORD });
+        }
         let Self { dynamics, tolerances, start } = self;
         let mut builder =
             Adaptive::builder(dynamics).scheme::<S>().tolerances(tolerances).inputs(start.inputs.clone());

@@ -79,7 +79,7 @@ impl Variant<'_> {
         quote! {
             #[inline(always)]
             fn #name<X: #runtime::Method>(&self, at: &#state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T) -> ::core::option::Option<#result> {
-                ::core::option::Option::Some(if X::EXPLICIT.is_held() {
+                ::core::option::Option::Some(if const { X::EXPLICIT.is_held() } {
                     self.#held(at, inputs, gains, h, t_next)
                 } else {
                     self.#per_stage(at, inputs, gains, h, t_next)
