@@ -36,6 +36,7 @@ pub mod identification {}
 pub mod linear {}
 mod linearization;
 mod modes;
+mod pencil;
 mod point;
 #[doc = include_str!("prescribed.md")]
 #[doc = include_str!("tailgate.svg")]

@@ -10,7 +10,8 @@ use crate::complex;
 use crate::derivative::scale;
 use crate::difference::derivative;
 use crate::family::{Family, Varied};
-use crate::modes::{Behaviour, Mode, Pencil};
+use crate::modes::{Behaviour, Mode};
+use crate::pencil::Pencil;
 use crate::{
     Equilibrium, Error, Linearization, OperatingPoint, Ports, Search, Signal, Strategy, Variable,
     equilibrium, linearize,

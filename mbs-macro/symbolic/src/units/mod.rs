@@ -1,5 +1,6 @@
 //! Units and dimensions: `N*m`, `rad/s`, `kg*m^2`, `rpm`.
 
+mod table;
 mod text;
 
 pub use text::{UnitError, parse};
@@ -7,6 +8,7 @@ pub use text::{UnitError, parse};
 use std::fmt;
 
 use crate::Number;
+use table::{OTHER_NAMES, Scale, UNITS};
 
 /// Exponents are kept in sixths, so that square and cube roots stay exact.
 const SIXTHS: i16 = 6;
@@ -192,134 +194,6 @@ impl Unit {
         (exponent.unsigned_abs() <= 12).then_some(Self { scale: self.scale.powi(exponent), dimension })
     }
 }
-
-/// How a unit's scale is written in the table.
-#[derive(Clone, Copy)]
-enum Scale {
-    /// A ratio of integers.
-    Exact(i64, i64),
-    /// π times a ratio of integers.
-    Pi(i64, i64),
-}
-
-/// Every unit the language knows: name, scale, exponents of (kg, m, s, A, K); those left out are 0.
-///
-/// Those of the English system are as NIST SP 811 (2008), appendix B, has them. They follow from 1 in = 25.4 mm,
-/// 1 lb = 0.45359237 kg and the standard acceleration 9.80665 m/s², so they are exact: 1 ft = 12 in, 1 yd = 3 ft,
-/// 1 mi = 5280 ft, 1 gal (of the US) = 231 in³, 1 oz = lb/16, 1 lbf = 4.4482216152605 N, 1 ozf = lbf/16,
-/// 1 kip = 1000 lbf, 1 slug = 1 lbf·s²/ft, 1 psi = 1 lbf/in², 1 hp = 550 ft·lbf/s.
-const UNITS: &[(&str, Scale, &[i16])] = &[
-    ("m", Scale::Exact(1, 1), &[0, 1, 0]),
-    ("mm", Scale::Exact(1, 1000), &[0, 1, 0]),
-    ("cm", Scale::Exact(1, 100), &[0, 1, 0]),
-    ("um", Scale::Exact(1, 1_000_000), &[0, 1, 0]),
-    ("km", Scale::Exact(1000, 1), &[0, 1, 0]),
-    ("inch", Scale::Exact(254, 10_000), &[0, 1, 0]),
-    ("in", Scale::Exact(254, 10_000), &[0, 1, 0]),
-    ("ft", Scale::Exact(3048, 10_000), &[0, 1, 0]),
-    ("yd", Scale::Exact(9144, 10_000), &[0, 1, 0]),
-    ("mi", Scale::Exact(1_609_344, 1000), &[0, 1, 0]),
-    ("gal", Scale::Exact(473_176_473, 125_000_000_000), &[0, 3, 0]),
-    ("kg", Scale::Exact(1, 1), &[1, 0, 0]),
-    ("g", Scale::Exact(1, 1000), &[1, 0, 0]),
-    ("tonne", Scale::Exact(1000, 1), &[1, 0, 0]),
-    ("lb", Scale::Exact(45_359_237, 100_000_000), &[1, 0, 0]),
-    ("lbm", Scale::Exact(45_359_237, 100_000_000), &[1, 0, 0]),
-    ("oz", Scale::Exact(45_359_237, 1_600_000_000), &[1, 0, 0]),
-    ("slug", Scale::Exact(8_896_443_230_521, 609_600_000_000), &[1, 0, 0]),
-    ("s", Scale::Exact(1, 1), &[0, 0, 1]),
-    ("ms", Scale::Exact(1, 1000), &[0, 0, 1]),
-    ("us", Scale::Exact(1, 1_000_000), &[0, 0, 1]),
-    ("ns", Scale::Exact(1, 1_000_000_000), &[0, 0, 1]),
-    ("min", Scale::Exact(60, 1), &[0, 0, 1]),
-    ("h", Scale::Exact(3600, 1), &[0, 0, 1]),
-    ("Hz", Scale::Exact(1, 1), &[0, 0, -1]),
-    ("rad", Scale::Exact(1, 1), &[0, 0, 0]),
-    ("mrad", Scale::Exact(1, 1000), &[0, 0, 0]),
-    ("deg", Scale::Pi(1, 180), &[0, 0, 0]),
-    ("rev", Scale::Pi(2, 1), &[0, 0, 0]),
-    ("rpm", Scale::Pi(1, 30), &[0, 0, -1]),
-    ("mph", Scale::Exact(1397, 3125), &[0, 1, -1]),
-    ("N", Scale::Exact(1, 1), &[1, 1, -2]),
-    ("mN", Scale::Exact(1, 1000), &[1, 1, -2]),
-    ("kN", Scale::Exact(1000, 1), &[1, 1, -2]),
-    ("MN", Scale::Exact(1_000_000, 1), &[1, 1, -2]),
-    ("kgf", Scale::Exact(980_665, 100_000), &[1, 1, -2]),
-    ("lbf", Scale::Exact(8_896_443_230_521, 2_000_000_000_000), &[1, 1, -2]),
-    ("ozf", Scale::Exact(8_896_443_230_521, 32_000_000_000_000), &[1, 1, -2]),
-    ("kip", Scale::Exact(8_896_443_230_521, 2_000_000_000), &[1, 1, -2]),
-    ("J", Scale::Exact(1, 1), &[1, 2, -2]),
-    ("kJ", Scale::Exact(1000, 1), &[1, 2, -2]),
-    ("W", Scale::Exact(1, 1), &[1, 2, -3]),
-    ("kW", Scale::Exact(1000, 1), &[1, 2, -3]),
-    ("hp", Scale::Exact(37_284_993_579_113_511, 50_000_000_000_000), &[1, 2, -3]),
-    ("Pa", Scale::Exact(1, 1), &[1, -1, -2]),
-    ("kPa", Scale::Exact(1000, 1), &[1, -1, -2]),
-    ("MPa", Scale::Exact(1_000_000, 1), &[1, -1, -2]),
-    ("GPa", Scale::Exact(1_000_000_000, 1), &[1, -1, -2]),
-    ("bar", Scale::Exact(100_000, 1), &[1, -1, -2]),
-    ("psi", Scale::Exact(8_896_443_230_521, 1_290_320_000), &[1, -1, -2]),
-    ("ksi", Scale::Exact(8_896_443_230_521, 1_290_320), &[1, -1, -2]),
-    ("Wh", Scale::Exact(3600, 1), &[1, 2, -2]),
-    ("kWh", Scale::Exact(3_600_000, 1), &[1, 2, -2]),
-    ("L", Scale::Exact(1, 1000), &[0, 3, 0]),
-    ("mL", Scale::Exact(1, 1_000_000), &[0, 3, 0]),
-    ("A", Scale::Exact(1, 1), &[0, 0, 0, 1]),
-    ("uA", Scale::Exact(1, 1_000_000), &[0, 0, 0, 1]),
-    ("mA", Scale::Exact(1, 1000), &[0, 0, 0, 1]),
-    ("kA", Scale::Exact(1000, 1), &[0, 0, 0, 1]),
-    ("C", Scale::Exact(1, 1), &[0, 0, 1, 1]),
-    ("uC", Scale::Exact(1, 1_000_000), &[0, 0, 1, 1]),
-    ("nC", Scale::Exact(1, 1_000_000_000), &[0, 0, 1, 1]),
-    ("Ah", Scale::Exact(3600, 1), &[0, 0, 1, 1]),
-    ("mAh", Scale::Exact(18, 5), &[0, 0, 1, 1]),
-    ("V", Scale::Exact(1, 1), &[1, 2, -3, -1]),
-    ("uV", Scale::Exact(1, 1_000_000), &[1, 2, -3, -1]),
-    ("mV", Scale::Exact(1, 1000), &[1, 2, -3, -1]),
-    ("kV", Scale::Exact(1000, 1), &[1, 2, -3, -1]),
-    ("ohm", Scale::Exact(1, 1), &[1, 2, -3, -2]),
-    ("mohm", Scale::Exact(1, 1000), &[1, 2, -3, -2]),
-    ("kohm", Scale::Exact(1000, 1), &[1, 2, -3, -2]),
-    ("Mohm", Scale::Exact(1_000_000, 1), &[1, 2, -3, -2]),
-    ("F", Scale::Exact(1, 1), &[-1, -2, 4, 2]),
-    ("mF", Scale::Exact(1, 1000), &[-1, -2, 4, 2]),
-    ("uF", Scale::Exact(1, 1_000_000), &[-1, -2, 4, 2]),
-    ("nF", Scale::Exact(1, 1_000_000_000), &[-1, -2, 4, 2]),
-    ("pF", Scale::Exact(1, 1_000_000_000_000), &[-1, -2, 4, 2]),
-    ("H", Scale::Exact(1, 1), &[1, 2, -2, -2]),
-    ("mH", Scale::Exact(1, 1000), &[1, 2, -2, -2]),
-    ("uH", Scale::Exact(1, 1_000_000), &[1, 2, -2, -2]),
-    ("Wb", Scale::Exact(1, 1), &[1, 2, -2, -1]),
-    ("T", Scale::Exact(1, 1), &[1, 0, -2, -1]),
-    ("K", Scale::Exact(1, 1), &[0, 0, 0, 0, 1]),
-];
-
-/// Usual names of units that the language writes otherwise, each with the unit meant. Ambiguous names are not listed.
-const OTHER_NAMES: &[(&str, &str)] = &[
-    ("lbs", "lb"),
-    ("inches", "in"),
-    ("feet", "ft"),
-    ("foot", "ft"),
-    ("sec", "s"),
-    ("hr", "h"),
-    ("kph", "km/h"),
-    ("kmh", "km/h"),
-    ("fps", "ft/s"),
-    ("gpm", "gal/min"),
-    ("kp", "kgf"),
-    ("ftlb", "ft*lbf"),
-    ("lbft", "lbf*ft"),
-    ("inlb", "in*lbf"),
-    ("lbin", "lbf*in"),
-    ("ozin", "ozf*in"),
-    ("l", "L"),
-    ("ml", "mL"),
-    ("amp", "A"),
-    ("volt", "V"),
-    ("Ohm", "ohm"),
-    ("Ω", "ohm"),
-    ("kΩ", "kohm"),
-];
 
 /// The unit called `name`; on a command line and in tables `°` is one, too.
 pub fn lookup(name: &str) -> Option<Unit> {
