@@ -2,7 +2,7 @@
 //!
 //! # How the book is made
 //!
-//! `src` has the chapters that are written by hand. `models/command/tests/book` reads them as a reader
+//! `src` has the chapters that are written by hand. `models/command/tests/command/book` reads them as a reader
 //! would. `models/command/examples/book` puts the book together: chapters with the pictures of the test, the
 //! gallery (`gallery.rs`), and as reference the pages of rustdoc and the help of the commands
 //! (`reference.rs`). mdBook makes HTML of it, in which `links.rs` follows every link. Nothing that is

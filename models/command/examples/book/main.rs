@@ -1,4 +1,4 @@
-//! Builds the book: `cargo test --release -p mbs --test book && cargo run --release -p mbs --example book`.
+//! Builds the book: `cargo test --release -p mbs --test command book && cargo run --release -p mbs --example book`.
 //!
 //! It puts together in `target/book` what stands in `models/book`, the pictures that the commands of the chapters
 //! made when they were tested, the gallery of the library, and the pages of the crates; mdBook makes
@@ -67,7 +67,7 @@ impl Places {
         let mbs = profile.join("mbs");
         if !mbs.exists() {
             return Err(format!(
-                "there is no {}: `cargo test --release -p mbs --test book` makes it",
+                "there is no {}: `cargo test --release -p mbs --test command book` makes it",
                 mbs.display()
             )
             .into());
@@ -116,7 +116,9 @@ fn pictures(chapter: &Path, made: &Path) -> Outcome {
         let name = rest.split(')').next().unwrap_or_default();
         fs::copy(made.join(name), folder.join(name)).map_err(|error| {
             let chapter = chapter.display();
-            format!("{chapter} shows {name}: {error}; `cargo test --release -p mbs --test book` makes it")
+            format!(
+                "{chapter} shows {name}: {error}; `cargo test --release -p mbs --test command book` makes it"
+            )
         })?;
     }
     Ok(())

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
 mod answers;
+#[cfg(unix)]
+mod book;
 mod drawings;
 mod ends;
 mod files;
@@ -14,6 +16,7 @@ mod linear;
 mod linkages;
 mod own_states;
 mod pages;
+mod paper;
 mod pieces;
 mod pmks;
 mod pmks_refused;

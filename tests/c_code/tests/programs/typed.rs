@@ -157,10 +157,6 @@ declared! { REACH;
     }
 }
 
-#[path = "../../src/chains.rs"]
-#[macro_use]
-mod chains;
-
 pendulum!(mechanism; Rods40 40);
 
 /// Runs both, and compares states, accelerations, multipliers and outputs as numbers.

@@ -7,7 +7,7 @@ use std::{env, fs};
 
 use snapbox::{Assert, Data, IntoData};
 
-use crate::chapter::{Block, Shown, commands};
+use super::chapter::{Block, Shown, commands};
 
 /// Stands between the outputs of the blocks of a program in Python.
 const BETWEEN: &str = "\u{1e}";

@@ -5,8 +5,6 @@
 //! were recorded, and has to agree to half a unit of the last of them, or to
 //! six significant digits where more were recorded.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
-
 use std::path::Path;
 use std::process::Command;
 

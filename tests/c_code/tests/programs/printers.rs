@@ -1,7 +1,7 @@
 //! Two printers of one compiled mechanism agree: C, built by gcc or clang, and live, which
 //! runs the text at once. `models/tests/library` holds live to the third one, rustc's code.
 //!
-//! `MECHANISMS=200 cargo test --release -p c_code --test printers` tries more of the random
+//! `MECHANISMS=200 cargo test --release -p c_code --test programs printers` tries more of the random
 //! ones.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
@@ -11,16 +11,7 @@ use mbs_live::{Live, Run, Scalar, Text};
 use mbs_runtime::{Baumgarte, Error, Held, Method, PerStage, System};
 use paths::{STRIDE, some_of};
 
-#[path = "../../src/between_stops.rs"]
-mod between_stops;
-#[path = "../../src/linkages.rs"]
-mod linkages;
-#[path = "../../src/random.rs"]
-mod random;
-#[path = "../../src/rough.rs"]
-mod rough;
-#[path = "../../src/thrown.rs"]
-mod thrown;
+use crate::{between_stops, linkages, rough, thrown};
 
 const MECHANISMS: u64 = 24;
 const STEPS: usize = 1000;

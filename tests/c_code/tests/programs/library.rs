@@ -7,13 +7,9 @@ use std::path::Path;
 use c_code::{Choice, Evaluator, build, build_around, compile, compilers, declarations, is_there};
 use mbs_codegen::targets::{Scalar, c};
 use mbs_codegen::{Compiled, analyse};
-use paths::STRIDE;
+use paths::{EXHAUSTIVE, STRIDE};
 
-#[path = "../../src/chains.rs"]
-#[macro_use]
-mod chains;
-#[path = "../../src/rough.rs"]
-mod rough;
+use crate::rough;
 
 /// The files of mechanisms that are also compiled with reduced states.
 const REDUCED: [&str; 5] =
@@ -139,7 +135,8 @@ fn a_thousand_steps_in_c_are_those_of_the_programs_to_the_bit() {
     // where velocities jump, at stops and by modes, is for `printers`
     for (name, compiled) in some().into_iter().filter(|(_, compiled)| !compiled.jumps()) {
         let sources = c(&compiled, Scalar::Double).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let built = build(&sources, compiler, "-O2").unwrap_or_else(|fault| panic!("{name}: {fault}"));
+        let optimization = if EXHAUSTIVE { "-O2" } else { "-O1" };
+        let built = build(&sources, compiler, optimization).unwrap_or_else(|fault| panic!("{name}: {fault}"));
         // the squeezer turns once in some milliseconds
         let step = if name.contains("squeezer") { 1e-5 } else { compiled.choices.step.unwrap_or(1e-4) };
         let free = compiled.inputs.len() - compiled.sampling.memories;

@@ -6,8 +6,6 @@
 //! compared with what stands below it; `...` and `[..]` stand for what may differ. Blocks of `python` are run
 //! where `BOOK_PYTHON` is an interpreter that has the package `mbs`. Blocks of `rust` are compiled and run by
 //! the crate `book`. `BLESS=1` writes into the chapters what was printed.
-#![cfg(unix)]
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says by panicking what is wrong")]
 
 mod chapter;
 mod run;

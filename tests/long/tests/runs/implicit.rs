@@ -290,7 +290,8 @@ fn runs_that_cannot_go_on_say_why() {
 #[test]
 fn test_problems_are_solved_to_the_tolerance() {
     const AXIS: &str = include_str!("declarations/car_axis.mbs");
-    let squeezer = Text::rust("andrews_squeezer.rs", include_str!("../../../models/src/andrews_squeezer.rs"));
+    let squeezer =
+        Text::rust("andrews_squeezer.rs", include_str!("../../../../models/src/andrews_squeezer.rs"));
     let squeezer = squeezer.compile().expect("a declaration");
     let angle = |at: usize| {
         let name = format!("angle{at}");
