@@ -66,11 +66,6 @@ impl Operation {
         }
     }
 
-    /// Reports whether it is a function, not one of the four operations or a sign.
-    pub fn is_function(self) -> bool {
-        matches!(self, Self::Call(_) | Self::Spline(..))
-    }
-
     /// True if it is the same, to the bit, with its operands exchanged.
     pub(crate) fn commutes(self) -> bool {
         matches!(self, Self::Add | Self::Mul)

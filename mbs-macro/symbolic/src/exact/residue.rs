@@ -136,12 +136,6 @@ impl Residue {
         (count % denominator == 0).then(|| PART.positive_power((count / denominator) as u128))
     }
 
-    /// A number that is related to no other, as a turn that can be divided into as many equal
-    /// turns as `parts` says.
-    pub fn stand_in_turn(reason: u64, of: &[Self], parts: u64) -> Self {
-        Self::stand_in(reason, of).positive_power(parts.into())
-    }
-
     /// cos x = (z + 1/z)/2 of the turn z = exp(i x).
     pub fn cosine(self) -> Option<Self> {
         Some((self + self.inverse()?) * Self(PRIME.div_ceil(2), 0))
