@@ -14,7 +14,7 @@ pub type States<M> = <<M as Mechanism>::States as Components>::Array;
 /// One number per constraint as an array.
 pub type Constraints<M> = <<M as Mechanism>::Constraints as Components>::Array;
 
-/// Room for a step on arrays. `L` is an array for results that loops hand to each other.
+/// Room for a step on arrays, filled with zeros. `L` is an array for results that loops hand to each other.
 pub struct Room<M: Mechanism, L> {
     /// One vector of states.
     pub states: States<M>,
@@ -24,28 +24,19 @@ pub struct Room<M: Mechanism, L> {
     pub slots: L,
 }
 
-impl<M: Mechanism, L> Room<M, L> {
-    /// Room that is filled with zeros.
-    #[inline(always)]
-    pub fn new(slots: L) -> Self {
-        let zero = M::Real::default();
-        let (states, constraints) = (M::States::splat(zero), M::Constraints::splat(zero));
-        Self { states: states.into_array(), constraints: constraints.into_array(), slots }
-    }
-}
-
 /// The place of a stage: t, q and v of the states.
 pub type Place<'a, M> = (<M as Mechanism>::Real, &'a States<M>, &'a States<M>);
 
 /// [`Mechanism::stabilized`] by a stage on arrays, which writes q̈ and the feedback, and returns the growth.
 ///
 /// The stage is given the feedback as zeros, or as it left it: where it always is 0, as of rows that give a
-/// coordinate, nothing is written.
+/// coordinate, nothing is written. Room is made here, since large arrays would be copied to it.
 pub fn stabilized<M: Mechanism, L>(
     at: &State<M::States>,
-    Room { states: mut a, constraints: mut feedback, mut slots }: Room<M, L>,
+    room: impl FnOnce() -> Room<M, L>,
     stage: impl FnOnce(Place<'_, M>, &mut States<M>, &mut Constraints<M>, &mut L) -> M::Real,
 ) -> Stabilized<M::States, M::Constraints> {
+    let Room { states: mut a, constraints: mut feedback, mut slots } = room();
     let (q, v) = (at.q.into_array(), at.v.into_array());
     let growth = stage((at.t, &q, &v), &mut a, &mut feedback, &mut slots);
     let (acceleration, feedback) = (Components::from_array(a), Components::from_array(feedback));
@@ -56,9 +47,10 @@ pub fn stabilized<M: Mechanism, L>(
 pub fn constrained<M: Mechanism, L>(
     at: &State<M::States>,
     feedback: &M::Constraints,
-    Room { states: mut a, mut slots, .. }: Room<M, L>,
+    room: impl FnOnce() -> Room<M, L>,
     stage: impl FnOnce(Place<'_, M>, &Constraints<M>, &mut States<M>, &mut L) -> M::Real,
 ) -> Accelerations<M::States> {
+    let Room { states: mut a, mut slots, .. } = room();
     let (q, v, feedback) = (at.q.into_array(), at.v.into_array(), feedback.into_array());
     let growth = stage((at.t, &q, &v), &feedback, &mut a, &mut slots);
     Accelerations { acceleration: Components::from_array(a), growth }
@@ -72,10 +64,11 @@ pub fn step<M: Mechanism, X: Method, L>(
     mechanism: &M,
     state: &mut State<M::States>,
     [h, t_next, alarm]: [M::Real; 3],
-    Room { states: zeros, constraints: mut feedback, mut slots }: Room<M, L>,
+    room: impl FnOnce() -> Room<M, L>,
     mut stabilized: impl FnMut(Place<'_, M>, &mut States<M>, &mut Constraints<M>, &mut L) -> M::Real,
     mut constrained: impl FnMut(Place<'_, M>, &Constraints<M>, &mut States<M>, &mut L) -> M::Real,
 ) -> Option<M::Real> {
+    let Room { states: zeros, constraints: mut feedback, mut slots } = room();
     let (mut q, mut there) = (zeros, zeros);
     let (mut velocities, mut accelerations) = (X::Scheme::stages(zeros), X::Scheme::stages(zeros));
     state.q.copy_to(&mut q);

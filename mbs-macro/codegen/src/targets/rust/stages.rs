@@ -32,11 +32,11 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
     let (s, m) = (compiled.states.len(), compiled.constraints.len());
     let stabilized = body(compiled, names, FunctionId::Stabilized, &Access::of_arrays());
     let constrained = body(compiled, names, FunctionId::Constrained, &Access::of_arrays());
-    let [states, constraints, slots] = [s, m, stabilized.slots.max(constrained.slots)].map(|length| {
-        let length = Literal::usize_unsuffixed(length);
-        quote!([T; #length])
-    });
-    let slot_count = Literal::usize_unsuffixed(stabilized.slots.max(constrained.slots));
+    let lengths = [s, m, stabilized.slots.max(constrained.slots)].map(Literal::usize_unsuffixed);
+    let [states, constraints, slots] = lengths.each_ref().map(|length| quote!([T; #length]));
+    let [zero_states, zero_constraints, zero_slots] =
+        lengths.each_ref().map(|length| quote!([T::from_f64(0.0); #length]));
+    let [_, _, slot_count] = lengths;
     let stage = |body: &Body, results: &TokenStream| {
         let (statements, growth) = (&body.statements, body.outputs.last());
         quote! {
@@ -60,7 +60,11 @@ pub fn implementation(compiled: &Compiled, names: &Names) -> TokenStream {
         impl<T: #runtime::Real> #mechanism<T> {
             #[inline(always)]
             fn room() -> #runtime::arrays::Room<Self, #slots> {
-                #runtime::arrays::Room::new([T::from_f64(0.0); #slot_count])
+                #runtime::arrays::Room {
+                    states: #zero_states,
+                    constraints: #zero_constraints,
+                    slots: #zero_slots,
+                }
             }
             fn stabilized_on_arrays(
                 &self,
@@ -107,12 +111,12 @@ pub fn calls(names: &Names) -> Calls {
     let step = quote! {
         #[inline(always)]
         fn long_step<X: #runtime::Method>(&self, state: &mut #state, inputs: &#inputs, gains: &#runtime::Gains<T>, h: T, t_next: T, alarm: T) -> ::core::option::Option<T> {
-            #runtime::arrays::step::<Self, X, _>(self, state, [h, t_next, alarm], Self::room(), #stabilized, #constrained)
+            #runtime::arrays::step::<Self, X, _>(self, state, [h, t_next, alarm], Self::room, #stabilized, #constrained)
         }
     };
     Calls {
-        stabilized: quote!(#runtime::arrays::stabilized::<Self, _>(at, Self::room(), #stabilized)),
-        constrained: quote!(#runtime::arrays::constrained::<Self, _>(at, feedback, Self::room(), #constrained)),
+        stabilized: quote!(#runtime::arrays::stabilized::<Self, _>(at, Self::room, #stabilized)),
+        constrained: quote!(#runtime::arrays::constrained::<Self, _>(at, feedback, Self::room, #constrained)),
         step,
     }
 }
