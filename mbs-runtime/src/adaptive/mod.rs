@@ -255,6 +255,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 Some(_) => attempt.error(&self.estimate, &self.tolerances, now, next),
                 None => f64::NAN,
             };
+            self.switching.knot = None;
             let ratio = self.judged(ratio);
             // the step over a corner cannot be shorter
             let is_over_corner = t_next >= limit && is_instant(h, t.to_f64(), D::Real::EPSILON.to_f64());
@@ -263,6 +264,9 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 return self.accept(growth);
             }
             self.effort.rejected += 1;
+            if let (true, Some(share)) = (S::RELAXES && growth.is_some(), self.to_knot()) {
+                self.control.next = h * share;
+            }
         }
         Err(self.cause())
     }

@@ -14,6 +14,8 @@ const MOST_PASSED: f64 = 4.0;
 const MOST_PASSAGES: usize = MOST_SWITCHES;
 /// The share of a step below which what lies between two knots does not count with implicit schemes.
 const NARROW: f64 = 1e-6;
+/// Such schemes stand at a knot within so many times what a rounding of the state changes its value by.
+const ROUNDINGS: f64 = 4.0;
 /// Shares of a step between which changes of rates are known at first, and that over which rates are taken.
 const RATES: [f64; 3] = [0.0, 0.5, 1.0 - SLOPE];
 const SLOPE: f64 = 1e-6;
@@ -74,6 +76,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             }
         }
         times.sort_unstable_by(f64::total_cmp);
+        self.switching.knot = times.first().copied().filter(|_| S::RELAXES);
         let pairs = times.windows(2).filter_map(|pair| match pair {
             [from, to] if to.is_finite() => Some((*from, *to)),
             _ => None,
@@ -153,6 +156,38 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     fn is_blind(&self) -> bool {
         let stages = self.attempt.accelerations.as_ref().len();
         self.estimate.differences.iter().all(|row| row.weights.len() <= stages)
+    }
+
+    /// The values that are at a knot but for rounding at the end of the step that was tried. Positions far from 0 are rounded so
+    /// coarsely that shorter steps do not move them, and never pass the knot.
+    pub(super) fn at_knots(&mut self, values: [f64; MOST_SWITCHES]) -> [bool; MOST_SWITCHES] {
+        let mut near = self.next.clone();
+        for x in [&mut near.q, &mut near.v] {
+            let mut rounding = D::Real::EPSILON * vectors::largest(x.as_ref()).1;
+            for x in x.as_mut() {
+                *x = *x + rounding;
+                rounding = -rounding;
+            }
+        }
+        let Self { dynamics, inputs, all, .. } = self;
+        let moved = switches_at((&*dynamics, &*inputs), &near, all);
+        let switches = dynamics.switching();
+        vectors::each(&mut |index| match (switches.get(index), values.get(index), moved.get(index)) {
+            (Some(switch), Some(value), Some(moved)) => {
+                let within = ROUNDINGS * (moved - value).abs();
+                let is_near = |rises| {
+                    switch.knots.ahead(*value, rises).is_some_and(|knot| (knot - value).abs() <= within)
+                };
+                is_near(true) || is_near(false)
+            }
+            _ => false,
+        })
+    }
+
+    /// How much shorter a step is that ends right behind the first knot which the one that was tried passes, for schemes that
+    /// do not look into a step.
+    pub(super) fn to_knot(&mut self) -> Option<f64> {
+        self.switching.knot.take().map(|share| share + 0.5 * NARROW)
     }
 
     /// The error after which the next step is half as long.

@@ -164,6 +164,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if !is_passed {
             return ratio;
         }
+        let at_knots = if S::RELAXES { self.at_knots(values) } else { [false; MOST_SWITCHES] };
+        let counts = |index: usize| counts(index) && at_knots.get(index) == Some(&false);
         let left_out = self.left_out(pieces, values, counts);
         (STRICT * ratio).max(left_out)
     }

@@ -13,11 +13,13 @@ pub(super) struct Switching {
     pub rounded: [u8; MOST_SWITCHES],
     /// The length of steps before the last rejections in s.
     pub calm: f64,
+    /// The share of the step that was tried at which it passes its first knot, if it is to end right behind it.
+    pub knot: Option<f64>,
 }
 
 impl Switching {
     pub const fn new() -> Self {
-        Self { pieces: None, turned: [0; MOST_SWITCHES], rounded: [0; MOST_SWITCHES], calm: 0.0 }
+        Self { pieces: None, turned: [0; MOST_SWITCHES], rounded: [0; MOST_SWITCHES], calm: 0.0, knot: None }
     }
 
     /// From another state, or with other inputs.
