@@ -7,7 +7,7 @@ use mbs_runtime::Real;
 use mbs_runtime::equations::{At, Equations, Partials};
 use nalgebra::DVector;
 
-use crate::difference::derivative;
+use crate::difference::{derivative, from_one_side};
 use crate::family::Varied;
 use crate::point::Drives;
 use crate::{Error, OperatingPoint};
@@ -155,7 +155,7 @@ impl Derivatives<'_> {
             varied.moved(at, share, &mut |mechanism| found = self.at(mechanism, [&q, &v, &inputs]))?;
             Ok(found)
         };
-        derivative(there, step, LEVELS, is_one_sided)
+        if is_one_sided { from_one_side(there, step, LEVELS) } else { derivative(there, step, LEVELS, false) }
     }
 
     /// The values of the equations of a mechanism at a state, as one vector.

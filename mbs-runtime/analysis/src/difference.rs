@@ -89,6 +89,21 @@ fn add_corners(
     }
 }
 
+/// The same from one side: ahead, or behind where there are no values ahead.
+///
+/// # Errors
+/// Those of f ahead, where it has no values behind either.
+pub fn from_one_side<E>(
+    f: impl Fn(f64) -> Result<DVector<f64>, E>,
+    longest: f64,
+    levels: usize,
+) -> Result<[DVector<f64>; 2], E> {
+    derivative(&f, longest, levels, true).or_else(|error| {
+        let [slope, open] = derivative(|x| f(-x), longest, levels, true).map_err(|_| error)?;
+        Ok([-slope, open])
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -90,7 +90,7 @@ impl<'a> Guided<'a> {
     /// Leads time and the prescribed coordinates in a straight line to those of a sample, and the mechanism
     /// along with them, on the branch on which it is. Steps along the tangent are corrected by Newton's
     /// method, and halved where a correction is not small beside the mechanism, or where the determinant
-    /// of [Φ_q; 1_I] has another sign: between them the position is singular then.
+    /// of [Φ_q; 1_I] has another sign: between them the position is singular then. No sample may be singular.
     ///
     /// # Errors
     /// [`Error::Unreachable`]; it stays where it cannot be led any further.
@@ -105,7 +105,8 @@ impl<'a> Guided<'a> {
                 false => share *= 0.5,
             }
         }
-        Ok(())
+        // a way that ends there has no other side, where the determinant would have another sign
+        if self.jacobian.is_singular() { Err(self.unreachable(sample)) } else { Ok(()) }
     }
 
     /// True if a step was made.

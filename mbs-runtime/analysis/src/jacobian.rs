@@ -6,6 +6,9 @@ use nalgebra::{DMatrix, DVector, Dyn, LU, QR};
 
 /// Singular values below this share of the largest are 0.
 const SINGULAR: f64 = 1e-9;
+/// Below this share they cannot be told from 0 where a coordinate turns back, as at a dead centre: Φ, which is known to ε, tells
+/// a position there to √ε.
+const FOLDED: f64 = 1e-7;
 
 /// J = [Φ_q; 1_I] at a position.
 ///
@@ -154,7 +157,7 @@ impl Jacobian {
     /// True if a coordinate can move while the prescribed ones stand still.
     pub fn is_singular(&self) -> bool {
         let values = self.decomposed().map(|found| found.values);
-        values.is_none_or(|values| values.min() <= SINGULAR * values.max())
+        values.is_none_or(|values| values.min() <= FOLDED * values.max())
     }
 
     /// Where J is nearest to being singular: the constraint that keeps the mechanism from being led further,

@@ -8,7 +8,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::complex;
 use crate::derivative::scale;
-use crate::difference::derivative;
+use crate::difference::{derivative, from_one_side};
 use crate::family::{Family, Varied};
 use crate::modes::{Behaviour, Mode};
 use crate::pencil::Pencil;
@@ -191,9 +191,9 @@ impl Nearby<'_> {
                 self.varied.seen(&moved, |mechanism| about_rest(mechanism, &self.search, &self.ports))?;
             Ok(DVector::from_column_slice(linear.a.rows(f, f).clone_owned().as_slice()))
         };
-        let change = match derivative(there, step, LEVELS, false) {
+        let change = match derivative(&there, step, LEVELS, false) {
             // a parameter that is not defined on one side, such as damping below 0
-            Err(Error::Mechanism(_)) => derivative(there, step, LEVELS, true)?,
+            Err(Error::Mechanism(_)) => from_one_side(there, step, LEVELS)?,
             other => other?,
         };
         let [change, _] = change;

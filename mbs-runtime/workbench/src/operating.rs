@@ -7,7 +7,7 @@ use mbs_analysis::{
     equilibrium, linearize,
 };
 use mbs_runtime::equations::{Equations, Room, project};
-use mbs_runtime::{Info, System, Tolerances};
+use mbs_runtime::{DOPRI5, Explicit, Info, System, Tolerances};
 
 use crate::quantity::{self, TIME};
 use crate::settings::Start;
@@ -206,8 +206,15 @@ impl Family for Operating<'_> {
         parameters: &[f64],
         look: &mut dyn FnMut(&dyn Equations<f64>),
     ) -> Result<(), mbs_runtime::Error> {
-        let start =
-            Start { parameters: parameters.to_vec(), kind: StartKind::Declared, ..self.start.clone() };
+        // of a run to a tolerance, whose steps lead to the samples of any clock
+        let start = Start {
+            parameters: parameters.to_vec(),
+            kind: StartKind::Declared,
+            method: Explicit::projected(&DOPRI5),
+            other: None,
+            tolerances: Some(Tolerances::default()),
+            ..self.start.clone()
+        };
         look(self.model.start(&start)?.equations());
         Ok(())
     }

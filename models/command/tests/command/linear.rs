@@ -163,3 +163,22 @@ fn what_cannot_be_asked() {
         refuses(&format!("bode {OSCILLATOR} --range {range}"), &["range", part]);
     }
 }
+
+/// A parameter at its limit is varied towards what it may be; and clocks, which do not act here, do not ask for steps.
+/// Regression: both ended in errors that name a value which nobody gave.
+#[test]
+fn parameters_at_their_limits() {
+    let folder = tempfile::tempdir().unwrap();
+    let limited = "Limited { dof = 1; param k = 10 [N/m] where k <= 10 [N/m]; body b (x) { mass = 1 [kg]; }
+        force f on x = 2 [N] - k*x - 1 [N*s/m]*der(x); }";
+    let clocked = "Clocked { dof = 1; param T = 10 [ms]; body b (x) { mass = 1 [kg]; } memory u [N] = 0;
+        every T { set u = 1 [N]; } force f on x = u - 5 [N/m]*x; }";
+    for (text, parameter, expected) in [(limited, "k", -0.2), (clocked, "T", 0.0)] {
+        std::fs::write(folder.path().join("text.mbs"), text).unwrap();
+        let found = json(folder.path(), &format!("linearize text.mbs --parameters {parameter}"));
+        let column = found["B"][1].as_array().unwrap().last().unwrap().as_f64().unwrap();
+        assert!((column - expected).abs() < 1e-9, "{parameter}: {found}");
+        let output = mbs(folder.path(), "modes text.mbs --sensitivity *");
+        assert!(output.status.success(), "{parameter}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+}
