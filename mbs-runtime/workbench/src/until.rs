@@ -51,11 +51,13 @@ impl Until {
         let value = rest.trim_start_matches(['<', '>', '=']).trim();
         let (measured, dimension, unit) = measured(info, name.trim())?;
         let value = quantity::parse_in(name.trim(), value, dimension, &unit)?;
-        let value = match measured {
-            Measured::Input(_) => {
-                beside(value, direction, rest.get(1..).is_some_and(|it| it.starts_with('=')))
-            }
-            _ => value,
+        let holds_there = rest.get(1..).is_some_and(|it| it.starts_with('='));
+        let value = match (measured, direction) {
+            (Measured::Input(_), _) => beside(value, direction, holds_there),
+            _ if holds_there => value,
+            // a value that stands at the limit, such as an output that counts, does not meet it
+            (_, Direction::Falling) => value.next_down(),
+            _ => value.next_up(),
         };
         let threshold = Threshold { measured, value, direction };
         Ok(Self { text: text.to_owned(), ending: Ending::Threshold(threshold) })

@@ -450,3 +450,35 @@ fn a_start_at_a_stop_hits_it_where_it_is() {
         assert!((last[2] - rate).abs() < 1e-12 && (last[4] - impulse).abs() < 1e-12, "{from}: {last:?}");
     }
 }
+
+/// A value that stands at the limit does not meet `>`, and does as soon as it is above: an output that counts, one that jumps
+/// from 0 to 1, and what rests at 0. Regression: `n > 50` ended a run at 50, and `s > 0` none.
+#[test]
+fn strict_conditions_are_met_above_their_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    let ends = |text: &str, until: &str| -> f64 {
+        std::fs::write(folder.path().join("text.mbs"), text).unwrap();
+        let mut ends = ["--step 1ms", "--rtol 1e-9"].map(|stepping| {
+            let options = format!("simulate text.mbs --json --end 1s --until {until} {stepping}");
+            let output = mbs(folder.path(), &options);
+            assert!(output.status.success(), "{until}: {}", String::from_utf8_lossy(&output.stderr));
+            let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert!(found["unmet"].is_null(), "{found}");
+            found["end_s"].as_f64().unwrap()
+        });
+        ends.sort_by(f64::total_cmp);
+        assert!(ends[1] - ends[0] < 1e-6, "{until}: {ends:?}");
+        ends[0]
+    };
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-6, "{found}");
+    let counter = "Counter { dof = 1; body b (x) { mass = 1 [kg]; }
+        memory n [1] = 0; every 10 [ms] { set n = n + 1; } output n = n; }";
+    near(ends(counter, "n>50"), 0.5);
+    near(ends(counter, "n>=50"), 0.49);
+    let shown = "Shown { dof = 1; body b (x) { mass = 1 [kg]; } start { der(x) = 1 [m/s]; }
+        output s = if x > 0.3 [m] { 1 } else { 0 }; }";
+    near(ends(shown, "s>0"), 0.3);
+    let pushed = "Pushed { dof = 1; body b (x) { mass = 1 [kg]; }
+        force f on x = if t > 0.2 [s] { 1 [N] } else { 0 }; }";
+    near(ends(pushed, "x>0"), 0.2);
+}
