@@ -191,7 +191,7 @@ impl Nearby<'_> {
                 self.varied.seen(&moved, |mechanism| about_rest(mechanism, &self.search, &self.ports))?;
             Ok(DVector::from_column_slice(linear.a.rows(f, f).clone_owned().as_slice()))
         };
-        let change = match derivative(&there, step, LEVELS, false) {
+        let change = match derivative(there, step, LEVELS, false) {
             // a parameter that is not defined on one side, such as damping below 0
             Err(Error::Mechanism(_)) => from_one_side(there, step, LEVELS)?,
             other => other?,

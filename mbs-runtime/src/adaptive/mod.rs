@@ -236,6 +236,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if self.effort.steps >= self.most_steps {
             return Err(Error::TooManySteps { t: t.to_f64(), steps: self.effort.steps });
         }
+        let mut is_aimed = false;
         for _ in 0..TRIALS {
             let h = D::Real::from_f64(self.next_step());
             let left = limit - t;
@@ -264,9 +265,10 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 return self.accept(growth);
             }
             self.effort.rejected += 1;
-            if let (true, Some(share)) = (S::RELAXES && growth.is_some(), self.to_knot()) {
-                self.control.next = h * share;
-            }
+            // where a step to a knot passes it again, one of half the length tells better where it is
+            let to_knot = self.step_to_knot(h).filter(|_| S::RELAXES && growth.is_some() && !is_aimed);
+            is_aimed = to_knot.is_some();
+            self.control.next = to_knot.unwrap_or(self.control.next);
         }
         Err(self.cause())
     }

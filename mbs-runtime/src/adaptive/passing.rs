@@ -14,6 +14,8 @@ const MOST_PASSED: f64 = 4.0;
 const MOST_PASSAGES: usize = MOST_SWITCHES;
 /// The share of a step below which what lies between two knots does not count with implicit schemes.
 const NARROW: f64 = 1e-6;
+/// Nor does a time of so many roundings.
+const INSTANT: f64 = 64.0;
 /// Such schemes stand at a knot within so many times what a rounding of the state changes its value by.
 const ROUNDINGS: f64 = 4.0;
 /// Shares of a step between which changes of rates are known at first, and that over which rates are taken.
@@ -184,10 +186,16 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         })
     }
 
-    /// How much shorter a step is that ends right behind the first knot which the one that was tried passes, for schemes that
-    /// do not look into a step.
-    pub(super) fn to_knot(&mut self) -> Option<f64> {
-        self.switching.knot.take().map(|share| share + 0.5 * NARROW)
+    /// The length of a step that ends right behind the first knot which the one of `h` seconds that was tried passes, for schemes
+    /// that do not look into a step. It is not so short that the clock could not tell.
+    pub(super) fn step_to_knot(&mut self, h: f64) -> Option<f64> {
+        let shortest = 0.5 * self.instant();
+        self.switching.knot.take().map(|share| (h * (share + 0.5 * NARROW)).max(shortest))
+    }
+
+    /// So many seconds are some roundings of the time.
+    fn instant(&self) -> f64 {
+        INSTANT * D::Real::EPSILON.to_f64() * self.now.t.to_f64().abs()
     }
 
     /// The error after which the next step is half as long.
@@ -233,7 +241,8 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// interpolated one, over what is allowed.
     fn surprise(&mut self, from: f64, to: f64) -> f64 {
         if S::RELAXES {
-            return if to - from > NARROW { self.halved() } else { 0.0 };
+            let time = (to - from) * (self.next.t - self.now.t).to_f64();
+            return if to - from > NARROW && time > self.instant() { self.halved() } else { 0.0 };
         }
         let there = self.within(f64::midpoint(from, to));
         let mut found = there.a.clone();
