@@ -17,7 +17,7 @@ const NARROW: f64 = 1e-6;
 /// Nor does a time of so many roundings.
 const INSTANT: f64 = 64.0;
 /// Such schemes stand at a knot within so many times what a rounding of the state changes its value by.
-const ROUNDINGS: f64 = 4.0;
+const ROUNDINGS: f64 = 64.0;
 /// Shares of a step between which changes of rates are known at first, and that over which rates are taken.
 const RATES: [f64; 3] = [0.0, 0.5, 1.0 - SLOPE];
 const SLOPE: f64 = 1e-6;
