@@ -160,7 +160,7 @@ pub trait Equations<T: Real> {
     /// Potential energy of gravity and springs in J.
     fn potential_energy(&self, at: At<'_, T>) -> T;
 
-    /// x and y of every point of the [sketch](Self::sketch) in m, one after the other.
+    /// x and y of every point of the [sketch](crate::System::sketch) in m, one after the other.
     fn points(&self, t: T, q: &[T], points: &mut [T]);
 
     /// Writes the parameters.
