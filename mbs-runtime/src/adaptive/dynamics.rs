@@ -32,7 +32,7 @@ pub trait Dynamics: Clone + Send {
     /// The inputs.
     type Inputs: Clone + Send;
 
-    /// False of a type of which velocities and memories never jump: what a jump takes is not compiled then.
+    /// False of a type whose velocities and memories never jump; the code of jumps is not compiled for it then.
     const JUMPS: bool = true;
     /// False of a type without clocks.
     const SAMPLES: bool = true;

@@ -193,7 +193,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.switching.knot.take().map(|share| (h * (share + 0.5 * NARROW)).max(shortest))
     }
 
-    /// So many seconds are some roundings of the time.
+    /// A time in s of some roundings of the present one.
     fn instant(&self) -> f64 {
         INSTANT * D::Real::EPSILON.to_f64() * self.now.t.to_f64().abs()
     }

@@ -6,7 +6,7 @@
 use super::{At, Equations, read};
 use crate::{Dual, Error, Gains, Info, Mechanism, Switch};
 
-/// How many partial derivatives equations over duals carry at once.
+/// The number of partial derivatives that equations over duals carry at once.
 pub const PARTIALS: usize = 4;
 
 /// A number with [`PARTIALS`] partial derivatives.

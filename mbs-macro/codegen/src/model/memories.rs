@@ -1,4 +1,4 @@
-//! What a run decides by memories: clocks, stops, friction that sticks, modes and their transitions.
+//! Clocks, stops, friction that sticks, modes and their transitions: a run keeps their decisions in memories.
 
 use mbs_symbolic::Expr;
 use proc_macro2::{Ident, Span};

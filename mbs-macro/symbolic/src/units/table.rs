@@ -1,6 +1,6 @@
-//! The units that the language knows, and what people call them otherwise.
+//! The units that the language knows, and other names that people have for them.
 
-/// How a unit's scale is written in the table.
+/// The scale of a unit as the table has it.
 #[derive(Clone, Copy)]
 pub enum Scale {
     /// A ratio of integers.

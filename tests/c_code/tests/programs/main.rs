@@ -1,4 +1,4 @@
-//! What C compilers make of the printed code: one program, so that its tests run beside each other.
+//! The printed C code, compiled and run: one program, so that its tests run beside each other.
 
 #[path = "../../../src/chains.rs"]
 #[macro_use]
