@@ -91,7 +91,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     /// comes to its next knot by its rate there and the largest change of its rate so far.
     pub(super) fn runs_through(
         &mut self,
-        [starts, ends]: [[f64; MOST_SWITCHES]; 2],
+        [starts, ends, roundings]: [[f64; MOST_SWITCHES]; 3],
         longest: f64,
         counts: impl Fn(usize) -> bool,
     ) -> bool {
@@ -102,21 +102,23 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let (first, middle, last) = (self.look(at_first), self.look(at_middle), self.look(at_last));
         let mut arrived: [bool; MOST_SWITCHES] =
             vectors::each(&mut |index| starts.get(index) == ends.get(index));
+        let mut unknown = roundings;
+        unknown.iter_mut().for_each(|x| *x *= 2.0 / SLOPE);
         let (mut share, mut here, mut bends) = (0.0, first, [0.0; MOST_SWITCHES]);
-        bend(&mut bends, [&first, &middle], RATES[1] - RATES[0]);
-        bend(&mut bends, [&middle, &last], RATES[2] - RATES[1]);
+        bend(&mut bends, [&first, &middle], unknown, RATES[1] - RATES[0]);
+        bend(&mut bends, [&middle, &last], unknown, RATES[2] - RATES[1]);
         for _ in 0..LOOKS {
             let [values, rates] = here;
-            let known =
-                switches.iter().zip(values).zip(rates.into_iter().zip(bends)).zip(arrived).enumerate();
+            let slopes = rates.into_iter().zip(bends).zip(unknown);
+            let known = switches.iter().zip(values).zip(slopes).zip(arrived).enumerate();
             // what has not come to the piece of its end may pass knots
             let known = known.filter(|(index, (_, arrived))| *arrived && counts(*index));
-            let reaches = known.map(|(_, (((switch, value), (rate, bend)), _))| {
+            let reaches = known.map(|(_, (((switch, value), ((rate, bend), unknown)), _))| {
                 let reach = |rises: bool| {
                     let way = (switch.knots.ahead(value, rises)? - value).abs();
                     let rate = if rises { rate } else { -rate };
                     // of a value that is held rounding decides, and at a knot it is already
-                    (way > 0.0 && rate.abs().max(bend) > held).then(|| reach(way, rate, bend))
+                    (way > 0.0 && rate.abs().max(bend) > held.max(unknown)).then(|| reach(way, rate, bend))
                 };
                 reach(true).unwrap_or(f64::INFINITY).min(reach(false).unwrap_or(f64::INFINITY))
             });
@@ -138,7 +140,7 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
                 }
                 *arrived |= is_at_end;
             }
-            bend(&mut bends, [&here, &there], step);
+            bend(&mut bends, [&here, &there], unknown, step);
             here = there;
         }
         false
@@ -160,10 +162,32 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         self.estimate.differences.iter().all(|row| row.weights.len() <= stages)
     }
 
-    /// The values that are at a knot but for rounding at the end of the step that was tried. Positions far from 0 are rounded so
-    /// coarsely that shorter steps do not move them, and never pass the knot.
-    pub(super) fn at_knots(&mut self, values: [f64; MOST_SWITCHES]) -> [bool; MOST_SWITCHES] {
-        let mut near = self.next.clone();
+    /// The values that are at a knot but for rounding. Positions far from 0 are rounded so coarsely that shorter steps do not
+    /// move them, and never pass the knot.
+    pub(super) fn at_knots(&self, [values, roundings]: [[f64; MOST_SWITCHES]; 2]) -> [bool; MOST_SWITCHES] {
+        let switches = self.dynamics.switching();
+        vectors::each(&mut |index| match (switches.get(index), values.get(index), roundings.get(index)) {
+            (Some(switch), Some(value), Some(rounding)) => {
+                let within = ROUNDINGS * rounding;
+                let is_near = |rises| {
+                    switch.knots.ahead(*value, rises).is_some_and(|knot| (knot - value).abs() <= within)
+                };
+                is_near(true) || is_near(false)
+            }
+            _ => false,
+        })
+    }
+
+    /// The changes of the values of a state by a rounding of it. Only implicit schemes ask for them: the others take no steps
+    /// in which rounding is all that moves a stiff value.
+    pub(super) fn roundings(
+        &mut self,
+        mut near: Moment<D::Real, D::States>,
+        values: [f64; MOST_SWITCHES],
+    ) -> [f64; MOST_SWITCHES] {
+        if !S::RELAXES {
+            return [0.0; MOST_SWITCHES];
+        }
         for x in [&mut near.q, &mut near.v] {
             let mut rounding = D::Real::EPSILON * vectors::largest(x.as_ref()).1;
             for x in x.as_mut() {
@@ -172,18 +196,11 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
             }
         }
         let Self { dynamics, inputs, all, .. } = self;
-        let moved = switches_at((&*dynamics, &*inputs), &near, all);
-        let switches = dynamics.switching();
-        vectors::each(&mut |index| match (switches.get(index), values.get(index), moved.get(index)) {
-            (Some(switch), Some(value), Some(moved)) => {
-                let within = ROUNDINGS * (moved - value).abs();
-                let is_near = |rises| {
-                    switch.knots.ahead(*value, rises).is_some_and(|knot| (knot - value).abs() <= within)
-                };
-                is_near(true) || is_near(false)
-            }
-            _ => false,
-        })
+        let mut changes = switches_at((&*dynamics, &*inputs), &near, all);
+        for (change, value) in changes.iter_mut().zip(values) {
+            *change = (*change - value).abs();
+        }
+        changes
     }
 
     /// The length of a step that ends right behind the first knot which the one of `h` seconds that was tried passes, for schemes
@@ -258,10 +275,15 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
     }
 }
 
-/// Takes the changes of rates between two looks where they are larger than those before.
-fn bend(bends: &mut [f64; MOST_SWITCHES], [from, to]: [&[[f64; MOST_SWITCHES]; 2]; 2], share: f64) {
-    for ((bend, from), to) in bends.iter_mut().zip(from[1]).zip(to[1]) {
-        *bend = bend.max(((to - from) / share).abs());
+/// Takes the changes of rates between two looks where they are larger than those before; less what rounding may change both.
+fn bend(
+    bends: &mut [f64; MOST_SWITCHES],
+    [from, to]: [&[[f64; MOST_SWITCHES]; 2]; 2],
+    unknown: [f64; MOST_SWITCHES],
+    share: f64,
+) {
+    for ((bend, unknown), (from, to)) in bends.iter_mut().zip(unknown).zip(from[1].into_iter().zip(to[1])) {
+        *bend = bend.max(((to - from).abs() - 2.0 * unknown) / share);
     }
 }
 

@@ -140,34 +140,44 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         if !D::SWITCHES || switches.is_empty() || !is_good {
             return ratio;
         }
-        let Self { dynamics, inputs, now, next, all, .. } = self;
+        let Self { dynamics, inputs, next, all, .. } = self;
         let values = switches_at((&*dynamics, &*inputs), next, all);
-        let pieces = self.switching.pieces.unwrap_or_else(|| {
-            // a value that begins at a knot passes none there
-            let begins = pieces_of(switches, switches_at((&*dynamics, &*inputs), now, all));
-            let ends = pieces_of(switches, values);
-            vectors::each(&mut |index| match (begins.get(index), ends.get(index)) {
-                (Some(begin), Some(end)) if is_knot(*begin) => *end,
-                (begin, _) => begin.copied().unwrap_or_default(),
-            })
-        });
         let (ends, rounded) = (pieces_of(switches, values), self.switching.rounded);
+        let pieces = match self.switching.pieces {
+            Some(pieces) => pieces,
+            None => self.begun(ends),
+        };
         // rounding decides of which piece a value is that is held
         let counts = |index: usize| rounded.get(index) == Some(&0);
         let passes = |index: usize| counts(index) && ends.get(index) != pieces.get(index);
         let is_passed = (0..switches.len()).any(passes);
         let is_long = (self.next.t - self.now.t).to_f64() > LONG * self.effort.longest;
         let longest = if is_long { LOOK } else { SHORT_LOOK };
-        if self.runs_through([pieces, ends], longest, counts) {
+        let roundings = self.roundings(self.next.clone(), values);
+        if self.runs_through([pieces, ends, roundings], longest, counts) {
             return self.halved();
         }
         if !is_passed {
             return ratio;
         }
-        let at_knots = if S::RELAXES { self.at_knots(values) } else { [false; MOST_SWITCHES] };
+        let at_knots = if S::RELAXES { self.at_knots([values, roundings]) } else { [false; MOST_SWITCHES] };
         let counts = |index: usize| counts(index) && at_knots.get(index) == Some(&false);
         let left_out = self.left_out(pieces, values, counts);
         (STRICT * ratio).max(left_out)
+    }
+
+    /// The pieces on which the values are that a run begins with. One that begins at a knot passes none there: it is on the
+    /// piece of its end.
+    fn begun(&mut self, ends: [f64; MOST_SWITCHES]) -> [f64; MOST_SWITCHES] {
+        let Self { dynamics, inputs, now, all, .. } = self;
+        let values = switches_at((&*dynamics, &*inputs), now, all);
+        let begins = pieces_of(self.dynamics.switching(), values);
+        let roundings = self.roundings(self.now.clone(), values);
+        let at_knots = self.at_knots([values, roundings]);
+        vectors::each(&mut |index| match (begins.get(index), ends.get(index), at_knots.get(index)) {
+            (Some(begin), Some(end), at_knot) if is_knot(*begin) || at_knot == Some(&true) => *end,
+            (begin, _, _) => begin.copied().unwrap_or_default(),
+        })
     }
 }
 
