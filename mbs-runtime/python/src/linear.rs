@@ -52,7 +52,7 @@ impl Mechanism {
 impl Mechanism {
     fn linear(&self, options: &RunOptions, about: &About, ports: &PortNames) -> Result<Linear, Error> {
         let info = self.model.info();
-        let operating = Operating::of(info.name, self.model.as_ref(), options, about)?;
+        let operating = Operating::of(info.name, self.model.as_ref(), options, about, &mut |_, _| ())?;
         Ok(Linear {
             linear: operating.linearized(ports)?,
             about: operating.words(),

@@ -72,8 +72,13 @@ pub(crate) fn end_note(run: &dyn System, steps: u64, end: f64) -> Option<String>
     let step = run.step_size();
     let reached = run.time() + steps as f64 * step;
     let is_there = run.effort().is_some() || (reached - end).abs() <= 1e-6 * step;
-    let [reached, end, step] = [reached, end, step].map(|x| significant(x, 7));
-    (!is_there).then(|| format!("steps of {step} s do not end at {end} s: the run ends at {reached} s"))
+    (!is_there).then(|| {
+        // as many digits as tell the two times from each other
+        let texts = (7..=17).map(|digits| [step, end, reached].map(|x| significant(x, digits)));
+        let [step, end, reached] =
+            texts.into_iter().find(|[_, end, reached]| end != reached).unwrap_or_default();
+        format!("steps of {step} s do not end at {end} s: the run ends at {reached} s")
+    })
 }
 
 /// Start values that are declared, and no guesses, but do not hold with the parameters that are set: the

@@ -15,6 +15,8 @@ use crate::{Error, Model, RunOptions, Settings, StartKind, Unit, names};
 
 /// Derivatives that are known to fewer digits than these are in doubt.
 const DOUBTFUL: f64 = 1e-6;
+/// Parts of a run to a state in motion, after each of which it tells how far it is.
+pub(crate) const PARTS: usize = 100;
 
 /// The state about which something is asked, in texts: a value is a number with or without a unit. By default it is
 /// the equilibrium that is nearest to the declared start.
@@ -118,7 +120,8 @@ fn positions(run: &dyn System, t: f64, given: &[(String, String)]) -> Result<Vec
 }
 
 impl<'a> Operating<'a> {
-    /// The mechanism called `name` with the parameters and inputs of `options`, at a point.
+    /// The mechanism called `name` with the parameters and inputs of `options`, at a point. `told` hears how many parts of
+    /// a run to that point are done, and of how many.
     ///
     /// # Errors
     /// Values that cannot be read or that the mechanism does not have; no equilibrium.
@@ -127,11 +130,12 @@ impl<'a> Operating<'a> {
         model: &'a dyn Model,
         options: &RunOptions,
         about: &About,
+        told: &mut dyn FnMut(u64, u64),
     ) -> Result<Self, Error> {
         let settings = options.values(model)?;
         let start = Start::of(model, &settings)?;
         if let Some(text) = &about.after {
-            let run = after(model, settings, quantity::parse("after", text, TIME)?)?;
+            let run = after(model, settings, quantity::parse("after", text, TIME)?, told)?;
             let point = OperatingPoint::of_run(&*run);
             return Ok(Self { name, model, run, point, rest: None, search: Search::default(), start });
         }
@@ -221,7 +225,12 @@ impl Family for Operating<'_> {
 }
 
 /// A run to a tolerance that is over.
-fn after(model: &dyn Model, settings: Settings, time: f64) -> Result<Box<dyn System>, Error> {
+fn after(
+    model: &dyn Model,
+    settings: Settings,
+    time: f64,
+    told: &mut dyn FnMut(u64, u64),
+) -> Result<Box<dyn System>, Error> {
     if !(time >= 0.0 && time.is_finite()) {
         let reason = "it has to be 0 or later".into();
         return Err(Error::Value { what: "after".into(), text: format!("{time} s"), reason });
@@ -229,11 +238,13 @@ fn after(model: &dyn Model, settings: Settings, time: f64) -> Result<Box<dyn Sys
     let tolerances = Some(Tolerances { rtol: 1e-10, atol: 1e-12, ..Tolerances::default() });
     // what is declared for constant steps has no use here
     let (stabilization, alpha, beta) = (None, None, None);
-    let step = if time > 0.0 { time } else { settings.step };
-    let settings = Settings { step, end: step, tolerances, stabilization, alpha, beta, ..settings };
+    let (step, end) = if time > 0.0 { (time / PARTS as f64, time) } else { (settings.step, settings.step) };
+    let settings = Settings { step, end, tolerances, stabilization, alpha, beta, ..settings };
     let mut run = model.start(&Start::of(model, &settings)?)?;
-    if time > 0.0 {
+    let steps = if time > 0.0 { run.ends_at(run.time() + time)? } else { 0 };
+    for done in 1..=steps {
         run.step()?;
+        told(done, steps);
     }
     Ok(run)
 }

@@ -25,6 +25,7 @@ pub struct Synthesis {
     pub refused: [(Defect, usize); 3],
     /// The number of starts.
     pub starts: usize,
-    /// The smallest difference from the values that were asked for, of all starts, with or without a defect.
+    /// The smallest difference from the values that were asked for, of all starts, with or without a defect. Infinite
+    /// if the search gave up all starts before, far from the positions or where the mechanism takes no such parameters.
     pub nearest: f64,
 }

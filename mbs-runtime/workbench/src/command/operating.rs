@@ -10,7 +10,8 @@ use super::options::{Named, Values, pairs};
 use crate::console::{Warnings, complain};
 use crate::models::{Found, Models};
 use crate::notes::held;
-use crate::operating::doubt;
+use crate::operating::{PARTS, doubt};
+use crate::sweep::Progress;
 use crate::{About, Error, Operating, PortNames};
 
 /// Which mechanism, with which values, and about what it is linearized.
@@ -72,7 +73,11 @@ impl Point {
             is_here: self.here,
             after: self.after.clone(),
         };
-        Operating::of(found.name(), found.model(), &options, &about).map_err(|error| match error {
+        let progress = Progress::new("to the state in motion", PARTS);
+        let told = &mut |done, _| progress.reached(done as usize);
+        let operating = Operating::of(found.name(), found.model(), &options, &about, told);
+        progress.finish();
+        operating.map_err(|error| match error {
             Error::Analysis(
                 error @ (mbs_analysis::Error::NoEquilibrium { .. } | mbs_analysis::Error::NoRest { .. }),
             ) => Error::NoEquilibrium(error),

@@ -29,6 +29,12 @@ fn steps_that_do_not_end_where_they_should_say_so() {
     let (x, said) = end("--step 0.3s --end 1s");
     assert!((x - 0.9).abs() < 1e-12);
     assert!(said.contains("note: steps of 0.3 s do not end at 1 s: the run ends at 0.9 s"), "{said}");
+    // the two times are told apart
+    let (_, said) = end("--step 3.3333333ms --end 1s");
+    assert!(
+        said.contains("steps of 0.0033333333 s do not end at 1 s: the run ends at 0.99999999 s"),
+        "{said}"
+    );
     let (x, said) = end("--step 0.25s --end 1s");
     assert!((x - 1.0).abs() < 1e-12 && !said.contains("do not end"), "{said}");
     let (x, said) = end("--rtol 1e-6 --step 0.3s --end 1s");

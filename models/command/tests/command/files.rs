@@ -88,7 +88,8 @@ fn an_interrupt_ends_what_keeps_nothing_at_once() {
     use std::os::unix::process::ExitStatusExt;
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("swing.mbs"), SWING).unwrap();
-    std::fs::write(folder.path().join("swing.csv"), "t [s],phi [rad]\n0,0.1\n1e6,0\n").unwrap();
+    std::fs::write(folder.path().join("swing.csv"), "t [s],phi [rad]\n0,0.1\n600,0.05\n1200,0.02\n1900,0\n")
+        .unwrap();
     for arguments in [
         "watch swing.mbs --end 1000000000s",
         "simulate swing.mbs --end 100000s --every 1000000 --out run.csv",

@@ -38,12 +38,14 @@ impl Shown<'_> {
             let refused: usize = self.synthesis.refused.iter().map(|(_, count)| count).sum();
             let reason = if refused > 0 {
                 format!("{}; other --seed, more --starts or wider --param may lead to one without", self.refused())
-            } else {
+            } else if nearest.is_finite() {
                 format!(
                     "the nearest misses a value by {} (SI, m or rad); widen --param, make more --starts, or allow a \
                      --tolerance",
                     significant(*nearest, 3)
                 )
+            } else {
+                "none comes near all positions; widen --param, make more --starts, or ask for fewer positions".into()
             };
             Error::NoLinkage { reason: format!("of {starts} starts, {reason}") }
         })
