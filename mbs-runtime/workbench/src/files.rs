@@ -99,6 +99,23 @@ impl Write for Output {
     }
 }
 
+/// Refuses a file that cannot be written, before the work whose results it is for.
+///
+/// It leaves nothing behind, and neither opens a pipe or a device nor follows a link that points to nothing.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn check_writable(path: &Path) -> Result<(), Error> {
+    let checked = match std::fs::metadata(path) {
+        Ok(there) if there.is_file() || there.is_dir() => {
+            OpenOptions::new().append(true).open(path).map(drop)
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound && !path.is_symlink() => part(path, None).map(drop),
+        Ok(_) | Err(_) => Ok(()),
+    };
+    checked.map_err(Error::file("write", path))
+}
+
 /// Writes a file at once.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let mut output = Output::create(path)?;
@@ -140,7 +157,12 @@ fn part(place: &Path, permissions: Option<Permissions>) -> io::Result<Target> {
     builder.prefix(&prefix).suffix(".part");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let part = builder.tempfile_in(folder)?;
+    // The library names the file that it tried to make, which nobody asked for.
+    let of_folder = |error: io::Error| match error.kind() {
+        kind if !folder.exists() => io::Error::new(kind, format!("there is no folder {}", folder.display())),
+        kind => io::Error::new(kind, format!("no file can be made in {}: {kind}", folder.display())),
+    };
+    let part = builder.tempfile_in(folder).map_err(of_folder)?;
     if let Some(permissions) = permissions {
         part.as_file().set_permissions(permissions)?;
     }

@@ -116,6 +116,8 @@ pub use console::say;
 pub use csv_file::write_csv;
 pub use doubt::Doubt;
 pub use error::Error;
+#[cfg(feature = "desk")]
+pub use files::check_writable;
 #[cfg(feature = "live")]
 pub use interactive::{Sources, packed, source_hash};
 pub use mbs_pictures::{Column, picture};

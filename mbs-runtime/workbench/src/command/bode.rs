@@ -10,7 +10,7 @@ use super::operating::{self, Point, Ports};
 use super::options;
 use super::responses::Bode;
 use crate::console::Warnings;
-use crate::figure::{Figure, Save};
+use crate::figure::Save;
 use crate::models::Models;
 use crate::{Error, quantity, say, write_csv};
 
@@ -48,8 +48,7 @@ impl Arguments {
     pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
         let found = self.point.find(models)?;
         let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
-        options::check_files([plot, out])?;
-        plot.map_or(Ok(()), Figure::check_ending)?;
+        options::check_files(None, &[plot], &[out])?;
         let range = self.range.as_ref().map(|text| range(text)).transpose()?;
         let operating = self.point.operating(&found)?;
         let linear = operating::linearized(&operating, &(&self.ports).into())?;

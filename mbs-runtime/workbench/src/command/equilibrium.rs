@@ -57,7 +57,7 @@ impl Arguments {
         let found = self.model.find(models)?;
         let (name, model) = (found.name(), found.model());
         let sketch = self.sketch.as_deref();
-        sketch.map_or(Ok(()), Figure::check_ending)?;
+        options::check_files(None, &[sketch], &[])?;
         let values = self.values.constants("inputs that change with time have no equilibrium")?;
         let start = Start::of(model, &values.settings(model)?)?;
         held(model.info()).into_iter().for_each(|note| complain(format_args!("note: {note}")));

@@ -71,8 +71,7 @@ impl Arguments {
         let found = self.model.find(models)?;
         let (name, model) = (found.name(), found.model());
         let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
-        options::check_files([plot, out])?;
-        plot.map_or(Ok(()), Figure::check_ending)?;
+        options::check_files(None, &[plot], &[out])?;
         let values = self.values.constants("inputs are found here, or keep their values")?;
         let info = model.info();
         let start = Start::of(model, &values.settings(model)?)?;

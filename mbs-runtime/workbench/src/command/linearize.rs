@@ -13,7 +13,7 @@ use super::operating::{self, Point, Ports};
 use super::options;
 use super::responses::Steps;
 use crate::console::Warnings;
-use crate::figure::{Figure, Save};
+use crate::figure::Save;
 use crate::models::Models;
 use crate::npz::{Array, npz};
 use crate::number::significant;
@@ -60,9 +60,10 @@ impl Arguments {
     pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
         let found = self.point.find(models)?;
         let [out, step] = [&self.out, &self.step_response].map(Option::as_deref);
-        options::check_files([out, step])?;
         out.map_or(Ok(()), check_out)?;
-        step.filter(|path| !is(path, "csv")).map_or(Ok(()), Figure::check_ending)?;
+        let (table, picture) =
+            if step.is_some_and(|path| is(path, "csv")) { (step, None) } else { (None, step) };
+        options::check_files(None, &[picture], &[out, table])?;
         let end = self.end.as_ref().map(|text| quantity::parse("end", text, TIME)).transpose()?;
 
         let operating = self.point.operating(&found)?;

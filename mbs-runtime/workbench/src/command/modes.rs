@@ -60,8 +60,7 @@ impl Arguments {
     pub fn run(&self, models: &Models) -> Result<Warnings, Error> {
         let found = self.point.find(models)?;
         let [sketch, report] = [&self.sketch, &self.report].map(Option::as_deref);
-        options::check_files([sketch, report])?;
-        sketch.map_or(Ok(()), Figure::check_ending)?;
+        options::check_files(None, &[sketch], &[report])?;
         let operating = self.point.operating(&found)?;
         let linear = operating::linearized(&operating, &PortNames::default())?;
         let modes = linear.modes()?;

@@ -6,6 +6,8 @@ use clap::builder::PossibleValuesParser;
 use clap::{Arg, Args};
 use mbs_runtime::{Info, Stabilization};
 
+use crate::figure::Figure;
+use crate::files::check_writable;
 use crate::models::{Found, Models};
 use crate::start::settable;
 use crate::{Error, Model, RunOptions, Settings, Signals, Unit, quantity, say, start_state};
@@ -213,14 +215,21 @@ pub(super) fn given(info: &'static Info, settings: &Settings) -> Vec<Given> {
         .collect()
 }
 
-/// Every file is written once.
-pub(super) fn check_files<'a>(files: impl IntoIterator<Item = Option<&'a Path>>) -> Result<(), Error> {
-    let mut seen: Vec<&Path> = Vec::new();
-    for file in files.into_iter().flatten() {
+/// Refuses files that cannot be written, or of which one would be written twice, before the work whose results
+/// they are for. `read` is what the command reads.
+pub(super) fn check_files(
+    read: Option<&Path>,
+    pictures: &[Option<&Path>],
+    others: &[Option<&Path>],
+) -> Result<(), Error> {
+    let mut seen: Vec<&Path> = read.into_iter().collect();
+    pictures.iter().flatten().try_for_each(|picture| Figure::check_ending(picture))?;
+    for file in pictures.iter().chain(others).copied().flatten() {
         if seen.iter().any(|other| is_same(other, file)) {
             let reason = "two options write to it".into();
             return Err(Error::Name { name: file.display().to_string(), reason });
         }
+        check_writable(file)?;
         seen.push(file);
     }
     Ok(())

@@ -130,11 +130,9 @@ impl Files {
         [&self.out, &self.plot, &self.sketch, &self.report].map(Option::as_deref)
     }
 
-    /// Before the work, so that a bad name is told at once.
     fn check(&self) -> Result<(), Error> {
-        options::check_files(self.all())?;
-        [&self.plot, &self.sketch].into_iter().flatten().try_for_each(|path| Figure::check_ending(path))?;
-        Ok(())
+        let [out, plot, sketch, report] = self.all();
+        options::check_files(None, &[plot, sketch], &[out, report])
     }
 }
 

@@ -74,8 +74,7 @@ impl Arguments {
         let found = self.model.find(models)?;
         let (name, model) = (found.name(), found.model());
         let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
-        options::check_files([plot, out])?;
-        plot.map_or(Ok(()), Figure::check_ending)?;
+        options::check_files(None, &[plot], &[out])?;
         let values = self.values.constants("inputs are constants of a slow motion")?;
         let info = model.info();
         let lead = Lead::of(info, &self.along, self.samples.unwrap_or(SAMPLES))?;

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Command, value_parser};
 use mbs_workbench::figure::Save;
-use mbs_workbench::{Error, say, sweep, write_csv};
+use mbs_workbench::{Error, check_writable, say, sweep, write_csv};
 
 use figures::Picture;
 
@@ -52,7 +52,8 @@ pub fn run(matches: &ArgMatches) -> Result<(), Box<dyn std::error::Error + Send 
         (None, None) => Some(DEFAULT_FOLDER.into()),
         (Some(_), None) => None,
     };
-    // Before the work, so that a bad folder is told at once.
+    // Before the work, so that a bad name is told at once.
+    json.map_or(Ok(()), |path| check_writable(path))?;
     if let Some(folder) = &folder {
         std::fs::create_dir_all(folder).map_err(Error::file("create", folder))?;
     }

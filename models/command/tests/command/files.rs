@@ -11,11 +11,30 @@ fn files_that_cannot_be_written() {
     refuses("simulate slider-crank --end 10ms --out no/such/out.csv", &["cannot write no/such/out.csv"]);
     refuses("simulate slider-crank --end 10ms --plot out.bmp", &["out.bmp", ".svg or .png"]);
     refuses("simulate slider-crank --end 10ms --sketch out.pdf", &["out.pdf", ".svg or .png"]);
-    refuses("simulate slider-crank --end 10ms --report no/such/out.html", &["cannot write no/such/out.html"]);
-    refuses("paper --json no/such/file.json", &["cannot write no/such/file.json"]);
     refuses("new 7up", &["`7up`", "begins with a letter"]);
     refuses("new fn", &["`fn`", "keyword of Rust"]);
     refuses("new self", &["`self`", "keyword of Rust"]);
+}
+
+/// A run of hours is not begun for a page that nobody can write, and leaves no table.
+#[test]
+fn outputs_are_checked_before_the_work() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("folder")).unwrap();
+    for (command, place) in [
+        ("simulate slider-crank --end 1e5s --out run.csv --report no/such.html", "no/such.html"),
+        ("simulate slider-crank --end 1e5s --plot no/such.svg", "no/such.svg"),
+        ("sweep pendulum --param length=1m..2m:1000000 --plot no/such.svg", "no/such.svg"),
+        ("modes dc-motor --sketch no/such.svg", "no/such.svg"),
+        ("equilibrium pendulum --sketch no/such.svg", "no/such.svg"),
+        ("simulate pendulum --end 1e5s --out folder", "folder"),
+        ("paper --json no/such.json", "no/such.json"),
+    ] {
+        let output = mbs(folder.path(), command);
+        let message = text(output.stderr);
+        assert!(!output.status.success() && message.contains(&format!("cannot write {place}")), "{message}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 #[test]
@@ -158,13 +177,13 @@ fn outputs_that_are_no_plain_files() {
         let script = format!("mbs() {{ {} \"$@\"; }}\n{script}", env!("CARGO_BIN_EXE_mbs"));
         Command::new("bash").args(["-c", &script]).current_dir(folder.path()).output().unwrap()
     };
-    let full = shell("mbs list > /dev/full");
+    let full = shell("mbs equilibrium pendulum > /dev/full");
     assert_eq!(full.status.code(), Some(1));
     assert!(text(full.stderr).contains("error: cannot write to standard output: No space left"));
-    assert!(!shell("mbs list --help > /dev/full").status.success());
+    assert!(!shell("mbs equilibrium --help > /dev/full").status.success());
     // The reader of a pipe may go: 128 + SIGPIPE, and not a word.
-    let closed = shell("mbs list | true; exit ${PIPESTATUS[0]}");
-    let early = shell("(sleep 0.5; mbs list) | true; exit ${PIPESTATUS[0]}");
+    let closed = shell("mbs equilibrium pendulum | true; exit ${PIPESTATUS[0]}");
+    let early = shell("(sleep 0.5; mbs equilibrium pendulum) | true; exit ${PIPESTATUS[0]}");
     assert_eq!((early.status.code(), early.stderr), (Some(141), Vec::new()));
     assert!(matches!(closed.status.code(), Some(0 | 141)));
     // A FIFO is written through and stays one.

@@ -14,7 +14,7 @@ use self::request::Request;
 use self::result::Shown;
 use super::options::{self, Named, Values, signed};
 use crate::console::Warnings;
-use crate::figure::{Figure, Save};
+use crate::figure::Save;
 use crate::models::Models;
 use crate::{Error, say, write_csv};
 
@@ -84,8 +84,7 @@ impl Arguments {
         let found = self.model.find(models)?;
         let (name, model) = (found.name(), found.model());
         let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
-        options::check_files([Some(self.data.as_path()), plot, out])?;
-        plot.map_or(Ok(()), Figure::check_ending)?;
+        options::check_files(Some(&self.data), &[plot], &[out])?;
         let trials = found.trials()?;
         let request = Request::of(model, self)?;
         let fit = fitted(&request, &*trials)?;

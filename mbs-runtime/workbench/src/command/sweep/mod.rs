@@ -19,7 +19,7 @@ use self::shard::{Head, Heading, Shard, There};
 use self::watched::{Watched, watched};
 use super::options::{self, Named, Run};
 use crate::console::{Warnings, complain};
-use crate::figure::{Figure, Save};
+use crate::figure::Save;
 use crate::members::{Extent, Member, Members};
 use crate::models::Models;
 use crate::notes::{end_note, lost_start_values};
@@ -165,8 +165,7 @@ impl Arguments {
         let watched = watched(model, &self.output)?;
         let [out, plot] = [&self.out, &self.plot].map(Option::as_deref);
         // before the work, so that a bad name is told at once
-        options::check_files([out, plot])?;
-        plot.map_or(Ok(()), Figure::check_ending)?;
+        options::check_files(None, &[plot], &[out])?;
         if let (Some(text), Some(path)) = (&self.shard, out) {
             let heading = Heading::of(Shard::parse(text)?, model, &settings, &grid, &watched);
             let columns = rows::columns(&grid, &watched).map_err(Error::file("write", path))?;

@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use self::request::task;
 use self::result::Shown;
 use super::options::{self, Named, Values, signed};
-use crate::figure::{Figure, Save};
+use crate::figure::Save;
 use crate::models::Models;
 use crate::{Error, interrupt, say, write_csv};
 
@@ -76,8 +76,7 @@ impl Arguments {
         let found = self.model.find(models)?;
         let (name, model) = (found.name(), found.model());
         let [plot, sketch, out] = [&self.plot, &self.sketch, &self.out].map(Option::as_deref);
-        options::check_files([Some(self.through.as_path()), plot, sketch, out])?;
-        [plot, sketch].into_iter().flatten().try_for_each(Figure::check_ending)?;
+        options::check_files(Some(&self.through), &[plot, sketch], &[out])?;
         let trials = found.trials()?;
         let (task, units) = task(model, self)?;
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len} starts, {msg}");
