@@ -117,6 +117,7 @@ fn sanitizers_find_nothing() {
 }
 
 #[test]
+#[ignore = "compiles texts under valgrind for seconds; .ci/run asks for it"]
 fn valgrind_finds_nothing() {
     if !["valgrind", "gcc"].iter().all(|tool| is_there(tool)) {
         return;

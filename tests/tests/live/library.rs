@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use mbs_live::Text;
 use mbs_runtime::equations::Equations;
+use paths::STRIDE;
 
 fn models() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src")
@@ -63,9 +64,14 @@ fn one_of_several_is_asked_for_by_its_name() {
 fn declarations_of_the_corpus() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
     let mut compiled = 0;
-    for entry in fs::read_dir(corpus).unwrap() {
-        let path = entry.unwrap().path();
+    let mut paths: Vec<_> = fs::read_dir(corpus).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    for (number, path) in paths.into_iter().enumerate() {
         let is_valid = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("valid_"));
+        // what is refused is refused before a target is asked for; `corpus.rs` has all of it
+        if !is_valid && number % STRIDE != 0 {
+            continue;
+        }
         match Text::declaration("corpus", fs::read_to_string(&path).unwrap()).compile() {
             Ok(_) => compiled += 1,
             Err(error) => {

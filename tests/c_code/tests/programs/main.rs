@@ -22,3 +22,6 @@ mod printers;
 mod refusals;
 mod tangents;
 mod typed;
+
+/// Bits are the same at every level of optimization; of two, the one that compiles faster serves a sample.
+const OPTIMIZATION: &str = if paths::EXHAUSTIVE { "-O2" } else { "-O1" };

@@ -14,7 +14,7 @@ fn c_refuses_what_is_wrong_and_keeps_the_last_good_state() {
     let (_, tokens) =
         all.into_iter().find(|(path, _)| path.ends_with("slider_crank_free.rs")).expect("a slider-crank");
     let sources = c(&analyse(tokens).expect("it compiles"), Scalar::Double).expect("it is printed");
-    let built = build_around(&sources, include_str!("refusals.c"), compiler, "-O2")
+    let built = build_around(&sources, include_str!("refusals.c"), compiler, crate::OPTIMIZATION)
         .unwrap_or_else(|fault| panic!("{fault}"));
     built.output().unwrap_or_else(|fault| panic!("{fault}"));
 }

@@ -198,7 +198,7 @@ fn built(text: &str, scalar: Scalar) -> Option<Built> {
     let compiler = *compilers().first()?;
     let compiled = analyse(text.parse().expect("tokens")).unwrap_or_else(|error| panic!("{error}"));
     let sources = c(&compiled, scalar).unwrap_or_else(|error| panic!("{error}"));
-    Some(build(&sources, compiler, "-O2").unwrap_or_else(|fault| panic!("{fault}")))
+    Some(build(&sources, compiler, crate::OPTIMIZATION).unwrap_or_else(|fault| panic!("{fault}")))
 }
 
 #[test]

@@ -80,7 +80,7 @@ impl Reading<'_> {
         let path = env::join_paths([mbs.to_owned()].into_iter().chain(env::split_paths(&others))).unwrap();
         let mut shell = if is_interrupted {
             let mut timeout = Command::new("timeout");
-            timeout.args(["--signal=INT", "3", "sh"]);
+            timeout.args(["--signal=INT", "2", "sh"]);
             timeout
         } else {
             Command::new("sh")
