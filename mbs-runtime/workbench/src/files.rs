@@ -110,8 +110,10 @@ pub fn check_writable(path: &Path) -> Result<(), Error> {
         Ok(there) if there.is_file() || there.is_dir() => {
             OpenOptions::new().append(true).open(path).map(drop)
         }
-        Err(error) if error.kind() == ErrorKind::NotFound && !path.is_symlink() => part(path, None).map(drop),
-        Ok(_) | Err(_) => Ok(()),
+        Ok(_) => Ok(()),
+        Err(_) if path.is_symlink() => Ok(()),
+        Err(error) if error.kind() == ErrorKind::NotFound => part(path, None).map(drop),
+        Err(error) => Err(error),
     };
     checked.map_err(Error::file("write", path))
 }
