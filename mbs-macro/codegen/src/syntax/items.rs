@@ -44,6 +44,11 @@ fn declaration(input: ParseStream<'_>, errors: &mut Diagnostics) -> Result<Decla
     let expected =
         |span| Error::new(span, "the name of the mechanism is expected here, as in `pub SliderCrank { … }`");
     let name = Ident::parse_any(input).map_err(|error| expected(error.span()))?;
+    if name == "mechanism" && input.peek(Token![!]) {
+        let message = "`mechanism! { … }` stands around a declaration in Rust; here the declaration stands alone, as in \
+                       `SliderCrank { dof = 0; … }`";
+        return Err(Error::new(name.span(), message));
+    }
     if let Err(error) = usable(name.clone()) {
         // of `pub struct Crank { … }` the first word is not meant to be the name
         if !input.peek(token::Brace) {
