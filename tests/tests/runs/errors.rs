@@ -2,6 +2,7 @@
 //! declaration it is about, and leaves the last good state behind.
 #![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
+use mbs_live::Text;
 use mbs_runtime::{
     Baumgarte, Components, Error, Held, Kinematics, Mechanism, PerStage, Projected, Simulation, State,
     mechanism, start,
@@ -304,6 +305,25 @@ fn all_messages_are_sentences_with_the_numbers_in_them() {
         let text = error.to_string();
         assert!(text.contains(part) && text.len() > 30, "{text}");
     }
+}
+
+/// Regression: a mass that was set to 0 gave an infinite acceleration at the start. On a bead in a circle the constraint
+/// says where it goes as well.
+#[test]
+fn a_mass_that_alone_determines_an_acceleration_is_positive() {
+    let ball = "Ball { dof = 3; param m = 1 [kg]; param inertia = 1 [kg*m^2]; gravity = (0, -9.81) [m/s^2];
+        body ball (x, y, phi) { mass = m; inertia = inertia; } force spring on y = -10 [N/m]*y; }";
+    let live = Text::declaration("ball.mbs", ball).compile().expect("a mechanism");
+    for (at, expected) in [(0, "mass of ball"), (1, "inertia of ball")] {
+        let refused = live.with_parameters(|parameters| parameters[at] = 0.0).err();
+        let Some(Error::Parameter { name, value, .. }) = refused else { panic!("{refused:?}") };
+        assert_eq!((name, value), (expected, 0.0));
+    }
+    assert!(Bead::new(BeadParameters { m: 0.0, ..BeadParameters::default() }).is_ok());
+    // a particle on it has a mass too
+    let loaded = ball.replace("force spring", "particle load at ball { mass = 1 [kg]; } force spring");
+    let live = Text::declaration("loaded.mbs", loaded).compile().expect("a mechanism");
+    assert!(live.with_parameters(|parameters| parameters[0] = 0.0).is_ok());
 }
 
 /// Times of steps are sums and products, whose rounding is nobody's concern.

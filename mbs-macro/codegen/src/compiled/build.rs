@@ -24,7 +24,7 @@ impl Compiled {
             doc: model.doc.clone(),
             places: places(&model),
             states: plan.inputs.states.iter().map(|state| state.coordinate).collect(),
-            conditions: conditions(&model),
+            conditions: conditions(&model, equations, &plan),
             constraints: model.constraints.iter().map(|row| constraint(&model, row)).collect(),
             line_count: model.line_count(),
             degrees_of_freedom: model.line_count() as i32 - plan.rows.basis.len() as i32,
@@ -140,7 +140,7 @@ impl From<model::Event> for Event {
 }
 
 /// The conditions on the results of [`Plan::requirements`], in their order.
-fn conditions(model: &Model) -> Vec<Condition> {
+fn conditions(model: &Model, equations: &Equations, plan: &Plan) -> Vec<Condition> {
     let mut conditions = Vec::new();
     for (at, requirement) in model.requirements.iter().enumerate() {
         conditions.push(Condition {
@@ -160,12 +160,20 @@ fn conditions(model: &Model) -> Vec<Condition> {
         if direction == Direction::Y && model.coordinate_of(body, Direction::X).is_some() {
             continue;
         }
+        let other = at + 1;
+        let has_other = direction == Direction::X && model.coordinate_of(body, Direction::Y) == Some(other);
+        let is_alone = |at| is_accelerated_alone(at, model, equations, plan);
+        let (comparison, requirement) = if is_alone(at) || (has_other && is_alone(other)) {
+            (Comparison::Greater, "it has to be positive, since nothing else determines the acceleration")
+        } else {
+            (Comparison::GreaterOrEqual, "it must not be negative")
+        };
         conditions.push(Condition {
             name: format!("{what} of {}", body.name),
             difference: masses + at,
             value: masses + at,
-            comparison: Comparison::GreaterOrEqual,
-            requirement: "it must not be negative".to_owned(),
+            comparison,
+            requirement: requirement.to_owned(),
         });
     }
     let checks = masses + model.coordinates.len();
@@ -179,6 +187,15 @@ fn conditions(model: &Model) -> Vec<Condition> {
         });
     }
     conditions
+}
+
+/// True if the equation of motion along a coordinate is m q̈ = Q with the mass of its body alone: no constraint, no
+/// lock of a mode and no other mass determines q̈ where m is 0.
+fn is_accelerated_alone(at: usize, model: &Model, equations: &Equations, plan: &Plan) -> bool {
+    equations.mass[at] == model.inertias[at].mass
+        && !equations.couplings.keys().any(|&(i, j)| i == at || j == at)
+        && !plan.phi_q_places.iter().any(|&(_, column)| column == at)
+        && model.locks.is_empty()
 }
 
 fn constraint(model: &Model, row: &model::Constraint) -> Constraint {
