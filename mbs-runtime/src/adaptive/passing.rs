@@ -178,16 +178,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         })
     }
 
-    /// The changes of the values of a state by a rounding of it. Only implicit schemes ask for them: the others take no steps
-    /// in which rounding is all that moves a stiff value.
+    /// The changes of the values of a state by a rounding of it.
     pub(super) fn roundings(
         &mut self,
         mut near: Moment<D::Real, D::States>,
         values: [f64; MOST_SWITCHES],
     ) -> [f64; MOST_SWITCHES] {
-        if !S::RELAXES {
-            return [0.0; MOST_SWITCHES];
-        }
         for x in [&mut near.q, &mut near.v] {
             let mut rounding = D::Real::EPSILON * vectors::largest(x.as_ref()).1;
             for x in x.as_mut() {

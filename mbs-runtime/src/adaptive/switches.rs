@@ -149,19 +149,21 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         };
         // rounding decides of which piece a value is that is held
         let counts = |index: usize| rounded.get(index) == Some(&0);
-        let passes = |index: usize| counts(index) && ends.get(index) != pieces.get(index);
-        let is_passed = (0..switches.len()).any(passes);
         let is_long = (self.next.t - self.now.t).to_f64() > LONG * self.effort.longest;
         let longest = if is_long { LOOK } else { SHORT_LOOK };
         let roundings = self.roundings(self.next.clone(), values);
-        if self.runs_through([pieces, ends, roundings], longest, counts) {
+        // explicit schemes take no steps in which rounding is all that moves a stiff value
+        let unknown = if S::RELAXES { roundings } else { [0.0; MOST_SWITCHES] };
+        if self.runs_through([pieces, ends, unknown], longest, counts) {
             return self.halved();
         }
-        if !is_passed {
+        // what ends at a knot but for rounding has not passed it: a shorter step may not move it
+        let at_knots = self.at_knots([values, roundings]);
+        let counts = |index: usize| counts(index) && at_knots.get(index) == Some(&false);
+        let passes = |index: usize| counts(index) && ends.get(index) != pieces.get(index);
+        if !(0..switches.len()).any(passes) {
             return ratio;
         }
-        let at_knots = if S::RELAXES { self.at_knots([values, roundings]) } else { [false; MOST_SWITCHES] };
-        let counts = |index: usize| counts(index) && at_knots.get(index) == Some(&false);
         let left_out = self.left_out(pieces, values, counts);
         (STRICT * ratio).max(left_out)
     }
