@@ -242,11 +242,14 @@ impl Linearization {
     /// [`pencil`](Self::pencil).
     fn modes_with_states(&self) -> Result<Vec<Mode>, Error> {
         const ITERATIONS: usize = 10_000;
-        let mut system = self.a.clone();
+        // by a power of two, since squares of large entries are beyond all numbers, and balancing then never ends
+        let largest = self.a.amax();
+        let scale = if largest.is_normal() { largest.log2().floor().exp2() } else { 1.0 };
+        let mut system = &self.a / scale;
         let _ = balance_parlett_reinsch(&mut system);
         let schur = Schur::try_new(system.clone(), f64::EPSILON, ITERATIONS);
         let Some(schur) = schur else { return Err(Error::Eigenvalues { decades: decades(&system) }) };
-        let eigenvalues = schur.complex_eigenvalues();
+        let eigenvalues = schur.complex_eigenvalues() * Complex::from(scale);
         let fastest = eigenvalues.iter().map(|root| root.norm()).fold(0.0, f64::max);
         let rate = if fastest > 0.0 { fastest } else { 1.0 };
         let of_rest = |root: Complex<f64>| if root.norm() <= STILL { Complex::from(0.0) } else { root };

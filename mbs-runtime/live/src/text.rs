@@ -145,6 +145,29 @@ impl Text {
         self
     }
 
+    /// The files of its tables, in the order in which they are read; none of a text without a folder.
+    ///
+    /// # Example
+    /// ```
+    /// use mbs_live::Text;
+    ///
+    /// let text = "Block { dof = 1; body block (x) { mass = 1 [kg]; }
+    ///     table pull(x) = from \"spring.csv\" linear outside extend; force spring on x = -pull(x); }";
+    /// let block = Text::declaration("block.mbs", text).in_folder("springs");
+    /// assert_eq!(block.tables(), [std::path::Path::new("springs/spring.csv")]);
+    /// ```
+    pub fn tables(&self) -> Vec<PathBuf> {
+        let mut files = Vec::new();
+        if let (Some(folder), Ok(tokens)) = (&self.folder, self.text.parse::<TokenStream>()) {
+            // what is wrong with them is told by compiling
+            let _ = mbs_codegen::with_files(tokens, &mut |name| {
+                files.push(folder.join(name));
+                folder::read(Some(folder), name)
+            });
+        }
+        files
+    }
+
     /// Chooses the block of a Rust file that declares a mechanism of this name. A declaration by itself stays what
     /// it is.
     ///

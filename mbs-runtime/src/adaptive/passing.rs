@@ -199,6 +199,16 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         changes
     }
 
+    /// As much of these as is not known of their rates: explicit schemes take no steps in which rounding is all that moves a
+    /// stiff value.
+    pub(super) fn unknown(
+        &mut self,
+        near: Moment<D::Real, D::States>,
+        values: [f64; MOST_SWITCHES],
+    ) -> [f64; MOST_SWITCHES] {
+        if S::RELAXES { self.roundings(near, values) } else { [0.0; MOST_SWITCHES] }
+    }
+
     /// The length of a step that ends right behind the first knot which the one of `h` seconds that was tried passes, for schemes
     /// that do not look into a step. It is not so short that the clock could not tell.
     pub(super) fn step_to_knot(&mut self, h: f64) -> Option<f64> {

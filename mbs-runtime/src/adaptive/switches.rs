@@ -151,15 +151,12 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         let counts = |index: usize| rounded.get(index) == Some(&0);
         let is_long = (self.next.t - self.now.t).to_f64() > LONG * self.effort.longest;
         let longest = if is_long { LOOK } else { SHORT_LOOK };
-        let roundings = self.roundings(self.next.clone(), values);
-        // explicit schemes take no steps in which rounding is all that moves a stiff value
-        let unknown = if S::RELAXES { roundings } else { [0.0; MOST_SWITCHES] };
+        let unknown = self.unknown(self.next.clone(), values);
         if self.runs_through([pieces, ends, unknown], longest, counts) {
             return self.halved();
         }
-        // what ends at a knot but for rounding has not passed it: a shorter step may not move it
-        let at_knots = self.at_knots([values, roundings]);
-        let counts = |index: usize| counts(index) && at_knots.get(index) == Some(&false);
+        let stays = self.stays(values);
+        let counts = |index: usize| counts(index) && stays.get(index) == Some(&false);
         let passes = |index: usize| counts(index) && ends.get(index) != pieces.get(index);
         if !(0..switches.len()).any(passes) {
             return ratio;
@@ -168,14 +165,28 @@ impl<D: Dynamics, S: AdaptiveScheme> Adaptive<D, S> {
         (STRICT * ratio).max(left_out)
     }
 
+    /// The values that have not passed a knot but for rounding in the step that was tried: a shorter one may not move them.
+    /// They end at it; with explicit schemes they begin there, too, since these may pass it in a long step.
+    fn stays(&mut self, ends: [f64; MOST_SWITCHES]) -> [bool; MOST_SWITCHES] {
+        let roundings = self.roundings(self.next.clone(), ends);
+        let at_end = self.at_knots([ends, roundings]);
+        if S::RELAXES {
+            return at_end;
+        }
+        let Self { dynamics, inputs, now, all, .. } = self;
+        let begins = switches_at((&*dynamics, &*inputs), now, all);
+        let at_start = self.at_knots([begins, roundings]);
+        vectors::each(&mut |index| at_end.get(index) == Some(&true) && at_start.get(index) == Some(&true))
+    }
+
     /// The pieces on which the values are that a run begins with. One that begins at a knot passes none there: it is on the
     /// piece of its end.
     fn begun(&mut self, ends: [f64; MOST_SWITCHES]) -> [f64; MOST_SWITCHES] {
         let Self { dynamics, inputs, now, all, .. } = self;
         let values = switches_at((&*dynamics, &*inputs), now, all);
         let begins = pieces_of(self.dynamics.switching(), values);
-        let roundings = self.roundings(self.now.clone(), values);
-        let at_knots = self.at_knots([values, roundings]);
+        let unknown = self.unknown(self.now.clone(), values);
+        let at_knots = self.at_knots([values, unknown]);
         vectors::each(&mut |index| match (begins.get(index), ends.get(index), at_knots.get(index)) {
             (Some(begin), Some(end), at_knot) if is_knot(*begin) || at_knot == Some(&true) => *end,
             (begin, _, _) => begin.copied().unwrap_or_default(),

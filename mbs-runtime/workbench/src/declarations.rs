@@ -1,10 +1,11 @@
 //! Declarations in files, and their errors on a terminal.
 
 use std::io::IsTerminal;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
+use crate::files::note_read;
 use crate::live::{as_declared, from_text};
 use crate::{Model, Settings};
 
@@ -47,7 +48,9 @@ pub(crate) fn read(path: &Path, name: Option<&str>) -> Result<Box<dyn Model>, cr
         Some(name) => text.named(name),
         None => text,
     };
-    as_declared(&text)
+    let model = as_declared(&text)?;
+    text.tables().iter().map(PathBuf::as_path).chain([path]).for_each(note_read);
+    Ok(model)
 }
 
 /// An error with its source, in colours on a terminal.

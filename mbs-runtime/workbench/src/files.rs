@@ -8,6 +8,7 @@
 use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use tempfile::NamedTempFile;
 
@@ -16,11 +17,35 @@ use crate::Error;
 /// Files that are read are no longer than so many bytes, so that an endless one comes to an end.
 pub(crate) const LARGEST_FILE: u64 = 64 << 20;
 
+/// The files that this program has read. None of them is written: an output that has the name of a declaration would
+/// be the end of it.
+static READ: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Notes that a file is read.
+pub(crate) fn note_read(path: &Path) {
+    if let (Ok(place), Ok(mut read)) = (path.canonicalize(), READ.lock()) {
+        read.push(place);
+    }
+}
+
+/// Refuses to write a plain file that was read.
+fn check_unread(path: &Path) -> Result<(), Error> {
+    let place = path.canonicalize().ok().filter(|place| place.is_file());
+    match (place, READ.lock()) {
+        (Some(place), Ok(read)) if read.contains(&place) => Err(Error::Name {
+            name: path.display().to_string(),
+            reason: "it is read here; give what is written another name".into(),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// The bytes of a file.
 ///
 /// # Errors
 /// [`Error::File`], also of one that is longer than [`LARGEST_FILE`].
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    note_read(path);
     let mut bytes = Vec::new();
     let read = File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
     let read = read.and_then(|_| {
@@ -49,6 +74,7 @@ enum Target {
 impl Output {
     /// Begins to write what is to be called `path`.
     pub fn create(path: &Path) -> Result<Self, Error> {
+        check_unread(path)?;
         let target = target(path).map_err(Error::file("write", path))?;
         Ok(Self { path: path.to_owned(), target })
     }
@@ -104,8 +130,9 @@ impl Write for Output {
 /// It leaves nothing behind, and neither opens a pipe or a device nor follows a link that points to nothing.
 ///
 /// # Errors
-/// [`Error::File`].
+/// [`Error::File`], and [`Error::Name`] of a file that this program has read.
 pub fn check_writable(path: &Path) -> Result<(), Error> {
+    check_unread(path)?;
     let checked = match std::fs::metadata(path) {
         Ok(there) if there.is_file() || there.is_dir() => {
             OpenOptions::new().append(true).open(path).map(drop)

@@ -71,7 +71,7 @@ impl Arguments {
         let found = self.model.find(models)?;
         let (name, model) = (found.name(), found.model());
         let [plot, out] = [&self.plot, &self.out].map(Option::as_deref);
-        options::check_files(None, &[plot], &[out])?;
+        options::check_files(self.motion.as_deref(), &[plot], &[out])?;
         let values = self.values.constants("inputs are found here, or keep their values")?;
         let info = model.info();
         let start = Start::of(model, &values.settings(model)?)?;

@@ -7,7 +7,7 @@ use clap::{Arg, Args};
 use mbs_runtime::{Info, Stabilization};
 
 use crate::figure::Figure;
-use crate::files::check_writable;
+use crate::files::{check_writable, note_read};
 use crate::models::{Found, Models};
 use crate::start::settable;
 use crate::{Error, Model, RunOptions, Settings, Signals, Unit, quantity, say, start_state};
@@ -222,7 +222,8 @@ pub(super) fn check_files(
     pictures: &[Option<&Path>],
     others: &[Option<&Path>],
 ) -> Result<(), Error> {
-    let mut seen: Vec<&Path> = read.into_iter().collect();
+    read.into_iter().for_each(note_read);
+    let mut seen: Vec<&Path> = Vec::new();
     pictures.iter().flatten().try_for_each(|picture| Figure::check_ending(picture))?;
     for file in pictures.iter().chain(others).copied().flatten() {
         if seen.iter().any(|other| is_same(other, file)) {

@@ -37,6 +37,42 @@ fn outputs_are_checked_before_the_work() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
+/// Regression: `--out` with the name of the declaration, of a table or of the data wrote over it.
+#[test]
+fn what_is_read_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = "Block { dof = 1; param k = 1 [N/m]; input f [N]; body b (y) { mass = 1 [kg]; }
+        table pull(y) = from \"pull.csv\" linear outside extend;
+        force all on y = f - k*y - pull(y); start { y = 0.5 [m]; } }";
+    let files = [
+        ("block.mbs", block),
+        ("pull.csv", "y [m],pull [N]\n0,0\n1,2\n"),
+        ("push.csv", "t [s],f [N]\n0,0\n1,2\n"),
+        ("motion.csv", "t [s],y [m]\n0,0\n0.5,0.1\n1,0.3\n"),
+    ];
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    for (command, file) in [
+        ("simulate block.mbs --out block.mbs", "block.mbs"),
+        ("simulate block.mbs --json --out ./block.mbs", "block.mbs"),
+        ("simulate block.mbs --out pull.csv", "pull.csv"),
+        ("simulate block.mbs --input f=@push.csv --out push.csv", "push.csv"),
+        ("sweep block.mbs --param k=1..2:2 --out block.mbs", "block.mbs"),
+        ("inverse block.mbs --motion motion.csv --out motion.csv", "motion.csv"),
+        ("fit block.mbs --data motion.csv --param k --out motion.csv", "motion.csv"),
+        ("bode block.mbs --out block.mbs", "block.mbs"),
+        ("export page block.mbs --out block.mbs", "block.mbs"),
+    ] {
+        let output = mbs(folder.path(), command);
+        let message = text(output.stderr);
+        assert!(message.contains(file) && message.contains("it is read here"), "{command}: {message}");
+    }
+    for (name, text) in files {
+        assert_eq!(std::fs::read_to_string(folder.path().join(name)).unwrap(), text);
+    }
+}
+
 #[test]
 fn an_early_end_keeps_what_was_computed() {
     // The paper's Figures 4–7: without feedback its start ends in a singular position.

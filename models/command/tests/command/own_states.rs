@@ -6,6 +6,19 @@ use super::{mbs, text};
 const TANK: &str = "Tank { dof = 0; input u [bar]; param p0 = 5 [bar]; param T_ = 1 [s]; state p [bar] = p0;
     der(p) = (u - p)/T_; output same [bar] = p; }";
 
+/// Regression: the squares of such rates are beyond all numbers, and stability was looked for without an end.
+#[test]
+fn rates_beyond_the_root_of_the_largest_number_are_answered() {
+    let folder = tempfile::tempdir().unwrap();
+    let motor = "Motor { dof = 1; param r = 1 [ohm]; body rotor (angle = phi) { inertia = 1 [kg*m^2]; } state i [A] = 0;
+        der(i) = (1 [V] - r*i - 1 [V*s]*der(phi))/(1 [H]); torque drive on rotor = 1 [N*m/A]*i; }";
+    std::fs::write(folder.path().join("motor.mbs"), motor).unwrap();
+    for r in ["1e100", "1e155", "1e300"] {
+        let output = mbs(folder.path(), &format!("equilibrium motor.mbs --set r={r}"));
+        assert!(output.status.success() && text(output.stdout).contains("indifferent"), "{r}");
+    }
+}
+
 /// Regression: a state was printed in SI units under the name of the unit that it was declared with, in the summary,
 /// tables and the start of `explain`; a fit to such a table found 300000 bar for 3 bar.
 #[test]
