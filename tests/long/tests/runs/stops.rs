@@ -165,8 +165,7 @@ fn a_law_that_jumps_is_passed_where_rounding_is_coarse() -> Result<(), Error> {
                 else { 0 [N] };
             start { y = -9.9905 [m]; } }",
     );
-    for at in [-10.0, -11.0, -12.0] {
-        let rtol = 10_f64.powf(at);
+    for rtol in [1e-10, 1e-11] {
         let tolerances = Tolerances { rtol, atol: 1e-2 * rtol, ..Tolerances::default() };
         let run =
             Adaptive::builder(Prepared::new(&live)).scheme::<Dop853>().tolerances(tolerances).build()?;
