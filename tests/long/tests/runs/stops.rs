@@ -126,7 +126,7 @@ fn the_wall_behind_a_body_that_clatters_is_not_passed() -> Result<(), Error> {
     let live = compiled(
         "Clatter { dof = 2;
             body near (x) { mass = 0.2032 [kg]; } force of_near on x = 0.9542 [N] - 3.7236 [N/m]*x;
-            body far (u) { mass = 0.9482 [kg]; } force of_far on u = 5.3751 [N] - 23.6344 [N/m]*u;
+            body far (x = u) { mass = 0.9482 [kg]; } force of_far on u = 5.3751 [N] - 23.6344 [N/m]*u;
             stop wall: x >= 0 [m] { restitution = 0.3; }
             stop between: u - x >= 0 [m] { restitution = 0.5; }
             start { x = 0.4536 [m]; der(x) = -1.7226 [m/s]; u = 1.3668 [m]; der(u) = -0.3478 [m/s]; } }",
